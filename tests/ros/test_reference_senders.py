@@ -8,6 +8,7 @@ from controller_bench import PATIENT, FakePlant
 from std_msgs.msg import Float64
 from workbench import end, start
 
+from motor_control.controller.reference.senders import SLACK, YOUNG
 from motor_msgs.msg import ControlState
 from motor_ros import qos
 
@@ -30,9 +31,9 @@ def test_a_controller_that_is_started_again_does_not_obey_a_running_stream(
 ) -> None:
     """As systemd or a launch file starts it again: the motor went on at once."""
     go_on(plant)
-    plant.wait(lambda: plant.answer(55.0).state == "running", "a running loop")
-    process.kill()
-    process.communicate()
+    old = time.monotonic() + YOUNG + SLACK  # [s] from when on the stream has not begun with the second
+    plant.wait(lambda: plant.answer(55.0).state == "running" and time.monotonic() > old, "a running loop")
+    end(process)  # who is killed is there for everybody for twenty seconds more
     plant.wait(lambda: plant._reference.get_subscription_count() == 0, "the end of the first")
     plant.states.clear()
     second = start("motor_control", "motor_control", *PATIENT)
