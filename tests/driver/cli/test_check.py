@@ -12,6 +12,7 @@ import pytest
 import workbench
 import yaml
 from board_fixtures import live  # noqa: F401
+from forked import Forked
 from patience import PATIENCE
 
 from motor_board.emulation.live import LiveBoard
@@ -19,14 +20,12 @@ from motor_driver.cli import check
 from motor_driver.link import open_port
 
 RUN = "from motor_driver.cli.check import main; import sys; sys.exit(main(sys.argv[1:]))"
-DEFAULT = ("env", "--default-signal=INT,HUP")  # whether or not the tests themselves run behind nohup, or with `&`
 TIMES = 5  # a machine that has no time for us is a stop, and a person would check again
 
 
 def start(*arguments: object) -> "subprocess.Popen[str]":
-    words = [*DEFAULT, sys.executable, "-c", RUN, *map(str, arguments)]
-    pipe = subprocess.PIPE
-    return subprocess.Popen(words, env=workbench.ENVIRONMENT, stdin=pipe, stdout=pipe, stderr=pipe, text=True)
+    words, pipe = [workbench.program("motor_driver", "check"), *map(str, arguments)], subprocess.PIPE
+    return Forked(words, env=workbench.ENVIRONMENT, stdin=pipe, stdout=pipe, stderr=pipe, text=True)
 
 
 def interrupted(board: LiveBoard, port: Path) -> "tuple[int, str]":
