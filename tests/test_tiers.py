@@ -14,7 +14,7 @@ MARK = "pytest.mark.slow"
 SAFETY = (
     *("tests/driver", "tests/control/controller/faults", "tests/ros/clocks", "tests/ros/graph"),
     *("tests/board/test_core_guard.py", "tests/board/test_firmware.py", "tests/board/test_firmware_current.py"),
-    *("tests/control/controller/test_latency.py", "tests/control/controller/test_lost_line.py"),
+    *("tests/control/controller/timing", "tests/control/controller/test_lost_line.py"),
     *("tests/ros/test_gate.py", "tests/ros/test_killed.py", "tests/ros/test_loopback.py", "tests/ros/test_sender.py"),
     *("tests/ros/test_motor_control_stops.py", "tests/ros/test_reference_senders.py", "tests/ros/test_signals.py"),
     *("tests/system/test_faults.py", "tests/system/test_stranger.py"),

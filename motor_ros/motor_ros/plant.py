@@ -77,8 +77,12 @@ class Plant:
         """[ns] ROS time."""
         return int(self._node.get_clock().now().nanoseconds)
 
-    def voltage(self) -> float:
-        """[V] to apply now; the age of commands is judged by a clock that is never set."""
+    def voltage(self, due: int | None = None) -> float:
+        """[V] to apply now; the age of commands is judged by a clock that is never set.
+
+        due [ns]: when it was to be applied by a plant that was held up, and catches up: a command that was too old for
+        that instant does not act in it.
+        """
         self._input.poll()
         limit, now = self.info.max_voltage, time.monotonic_ns()
         if self._commanders.players != self._played:
@@ -86,7 +90,7 @@ class Plant:
             self._node.get_logger().error(self._find_others(now) or "The recording has ended.")
         if self._played or self._other.speaks(now):
             self.gate = self.gate.come_up(now)
-        return min(max(self.gate.voltage(now), -limit), limit)
+        return min(max(self.gate.voltage(now if due is None else due), -limit), limit)
 
     def stop(self, why: str, motor: bool = False) -> None:
         """Switch the output off until motor/enable; `why` is said. motor: for what the motor did."""

@@ -19,7 +19,7 @@ from motor_sim.parameters import PARAMETERS, PROGRAM, board_config_of
 
 MOST_BEHIND = 500_000_000  # [ns] a process that was held up longer than this does not catch up
 # [ns] without a sample, then: to who estimates their age, a clock that stood still is a link that holds samples back,
-# for minutes, unless nothing comes for 0.4 s (`motor_control/controller/latency.py`).
+# for minutes, unless nothing comes for 0.4 s (`motor_control/controller/timing/latency.py`).
 STILL = 500_000_000
 HELD_UP = (
     "The simulation was held up {} times in the last second, which is not real time: close other programs, or lower "
@@ -62,7 +62,7 @@ class MotorSim(Node):
         due = find_due(self._next, now, self._sampled)
         self._next, self._late = due, self._late + (due != self._next)
         while self._next <= now:
-            sample = self._board.sample(self._plant.voltage())
+            sample = self._board.sample(self._plant.voltage(self._next))
             self._plant.publish(sample, time_message(self._next + to_ros))
             self._check = self._check.see(sample)
             if self._check.stop and self._plant.gate.enabled:

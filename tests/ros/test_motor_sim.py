@@ -12,7 +12,7 @@ from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 from workbench import PATIENCE, Bench, end
 
-from motor_control.controller.latency import PAUSE, track_latency
+from motor_control.controller.timing.latency import PAUSE, track_latency
 from motor_model.model_file import save
 from motor_model.parameters import PAPER_KV, Parameters
 from motor_model.sensing.motion_check import NEVER

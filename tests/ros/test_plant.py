@@ -1,5 +1,6 @@
 """The shell that both plants share: what motor/enable answers, and joint states that are the angle."""
 
+import time
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -70,6 +71,16 @@ def test_a_link_that_comes_and_goes_heats_no_motor(bench: Bench) -> None:
     for _ in range(5):
         plant.stop("the link to the board was lost")
         assert asked(plant, True) == (True, "The output is on.")
+
+
+@pytest.mark.parametrize(("later", "volts"), [(100_000_000, 6.0), (100_000_001, 0.0)])
+def test_a_plant_that_catches_up_holds_a_voltage_for_no_longer_than_its_timeout(
+    bench: Bench, later: int, volts: float
+) -> None:
+    """Held up for 0.4 s, a simulation gave its motor the voltage from before for all that time, at once."""
+    plant, now = Plant(bench.node, Info(), Gate(True, 0.1)), time.monotonic_ns()
+    plant.gate = plant.gate.take(0.0, now).take(6.0, now)
+    assert plant.voltage(now + later) == volts
 
 
 @pytest.mark.parametrize(("single", "angle"), [(False, 1.0), (True, 5.0)])

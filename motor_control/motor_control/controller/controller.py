@@ -12,7 +12,6 @@ from math import nan
 from motor_control.controller import pi
 from motor_control.controller import speed_law as law
 from motor_control.controller.interruptions import count_interruption
-from motor_control.controller.latency import follow_echo, track_latency
 from motor_control.controller.obstacles import explain_stop, find_mistake, find_obstacle, is_finite
 from motor_control.controller.output import DISABLED, NO_SAMPLES, RUNNING, STOPPED, Output, halt
 from motor_control.controller.plant_watch import watch_plant
@@ -31,6 +30,15 @@ from motor_control.controller.state import (
     release,
     reset,
     stop,
+)
+from motor_control.controller.timing.latency import follow_echo, track_latency
+from motor_control.controller.timing.timekeeping import (
+    PERIODS,
+    Timekeeping,
+    count_lapse,
+    find_longest_hold,
+    keep_time,
+    regain,
 )
 from motor_model.frozen_record import replace
 from motor_model.sample import Sample
@@ -65,7 +73,8 @@ def update(config: Config, state: State, sample: Sample, reference: float | None
     """Answer one sample; reference [rad/s]: one that has come since the last sample; now [s] is a monotonic clock."""
     age, latency = track_latency(state.latency, sample.sample_time, now)
     plant = watch_plant(state.plant, sample, now, config.sample_period)
-    state = replace(state, rhythm=follow_rhythm(state.rhythm, sample))
+    timing = _keep_time(config, state, sample, age, now)
+    state = replace(state, rhythm=follow_rhythm(state.rhythm, sample), timing=timing)
     if plant.two and not state.latched:
         state = stop(state, TWO_PLANTS, now)
     state = drop_old_reference(config, state, plant, now)
@@ -94,6 +103,18 @@ def watch(config: Config, state: State, now: float) -> tuple[Output | None, Stat
     return output, replace(state, run=None, silent=now)
 
 
+def _keep_time(config: Config, state: State, sample: Sample, age: float, now: float) -> Timekeeping:
+    """Follow how the controller keeps its time, with a sample of an age [s] that is answered at `now` [s]."""
+    if state.arrival is None or state.plant is None:
+        return state.timing
+    gap = max(now - state.arrival, (sample.sample_time - state.plant.sample_time) * 1e-9)
+    hold = find_longest_hold(config.gains, config.faults, state.motion, config.latency_limit)
+    hold = max(hold, PERIODS * config.sample_period)
+    after = keep_time(state.timing, gap, hold, age > config.latency_limit, config.sample_timeout)
+    driven = state.drives and state.demand is not None
+    return count_lapse(state.timing, after, gap, config.sample_timeout) if driven else after
+
+
 def _is_unheard(before: Run | None, after: State, now: float) -> bool:
     """Whether the plant still applies 0 V to a fresh reference: it may not have heard the 0 V that voltages begin with.
 
@@ -120,10 +141,10 @@ def _answer(config: Config, state: State, sample: Sample, age: float, now: float
     if demand is None or name != RUNNING or (mistake and state.run is None):
         name, reason = (STOPPED, mistake) if mistake else (name, reason)
         return replace(halt(name, reason, shown, sample.speed), warning=bool(state.dropped)), replace(state, run=None)
-    late = age > config.latency_limit
+    waiting = STALE.format(1e3 * age, 1e3 * config.latency_limit) if state.timing.late else state.timing.waiting
     wanted = Demand(0.0) if mistake else demand
     before = _continue_run(config, state, sample)
-    output, run = law.step(config, before, sample, wanted, late or bool(mistake))
+    output, run = law.step(config, before, sample, wanted, bool(waiting or mistake))
     window = config.latency_limit + EARLIER * config.sample_period
     answer = before.sample_time, before.asked
     held_back, echo = follow_echo(before.echo, sample, answer, window, config.voltage_limit)
@@ -136,10 +157,11 @@ def _answer(config: Config, state: State, sample: Sample, age: float, now: float
     if mistake:  # the checks go on: it may come and go
         output = halt(STOPPED, mistake, shown, sample.speed)
         run = replace(run, asked=0.0, paused=True, law=pi.State(), reference=sample.speed)
-    elif late:  # what it says is over; the run goes on with the next one that is in time
-        output = halt(STOPPED, STALE.format(1e3 * age, 1e3 * config.latency_limit), shown, sample.speed)
+    elif waiting:  # what it says is over; the run goes on with the next one that is in time
+        output = halt(STOPPED, waiting, shown, sample.speed)
         run = replace(run, asked=0.0, paused=True)
-    state = replace(state, motion=run.motion, faults=run.faults, judged=run.sample_time)
+    timing = regain(state.timing, run.reference, output.speed, config.sample_timeout)
+    state = replace(state, motion=run.motion, faults=run.faults, judged=run.sample_time, timing=timing)
     return output, replace(state, run=run, place=run.place)
 
 
@@ -160,11 +182,11 @@ def _continue_run(config: Config, state: State, sample: Sample) -> Run:
     """
     run = state.run
     if run is not None and 0 <= sample.sample_time - run.sample_time <= config.sample_timeout * 1e9:
-        return replace(run, rhythm=state.rhythm)
+        return replace(run, rhythm=state.rhythm, caution=state.timing.caution)
     just_now = 0 <= sample.sample_time - state.judged <= AWAY * 1e9
     run = begin(config, sample, state.motion, state.faults if just_now else None)
     place = position_law.leave(state.place, 0.0) if just_now else None
-    return replace(run, place=place, rhythm=state.rhythm)
+    return replace(run, place=place, rhythm=state.rhythm, caution=state.timing.caution)
 
 
 WAITING = halt(NO_SAMPLES, NEVER_A_SAMPLE, nan, nan)  # what holds before anything has happened

@@ -17,6 +17,7 @@ STEADY = 0.1  # share of the speed by which both averages may differ in a steady
 EVEN_VOLTAGE, TREMBLE = 0.05, 0.15
 FEW_SLOTS = 10.0  # in the faster average: there a single edge shows in it
 STEADY_TIME = 0.15  # [s] for which they have to
+HELD = 0.02  # of each, by which the averages may differ where the voltage is one that holds the speed
 STANDSTILL = 0.1  # [s] without an edge
 
 
@@ -36,6 +37,8 @@ class Motion:
     steady_voltage: float = 0.0
     steady_way: int = 0  # its direction
     most: float = 0.0  # largest average of the last 0.15 s so far
+    held_speed: float = 0.0  # of the last steady motion under an even voltage; 0: there was none
+    held_voltage: float = 0.0  # that held it
 
     def fastest(self, voltage_limit: float) -> float:
         """Give the least top speed [rad/s] that the motion so far proves; infinite: there was no steady one.
@@ -75,4 +78,6 @@ def follow_motion(
     way = motion.steady_way if steady < STEADY_TIME else 1 if sample.voltage > 0.0 else -1
     most = max(motion.most, min(slow_speed, abs(sample.speed))) if regular else motion.most  # a count may jump
     voltages = fast_voltage, slow_voltage
-    return Motion(sample.edge_count, speed, slow_speed, *voltages, silent, edges, steady, *known, way, most)
+    even = abs(fast_voltage - slow_voltage) <= HELD * slow_voltage and abs(speed - slow_speed) <= HELD * slow_speed
+    held = (slow_speed, slow_voltage) if even and steady >= STEADY_TIME else (motion.held_speed, motion.held_voltage)
+    return Motion(sample.edge_count, speed, slow_speed, *voltages, silent, edges, steady, *known, way, most, *held)

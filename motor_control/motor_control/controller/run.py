@@ -10,9 +10,9 @@ from motor_control.checks import at_least
 from motor_control.controller import pi
 from motor_control.controller.faults import detection
 from motor_control.controller.faults.evidence import Config as FaultConfig
-from motor_control.controller.latency import Echo
 from motor_control.controller.motion import Motion
 from motor_control.controller.reference import position_law
+from motor_control.controller.timing.latency import Echo
 from motor_model.sample import Sample
 from motor_model.sensing.mains_rhythm import Rhythm
 
@@ -80,6 +80,7 @@ class Run:
     rests: bool = False  # it has come to rest at a reference of 0
     rhythm: Rhythm = Rhythm()  # of the edges, this sample's included
     echo: Echo = Echo()  # of what was asked for
+    caution: str = ""  # why the voltage stays near what held the speed; "": it need not
     paused: bool = False  # 0 V was sent since this sample, whatever the law said: the integral has no part in the error
 
 

@@ -22,6 +22,7 @@ from motor_control.controller.reference import position_law
 from motor_control.controller.reference.demand import Demand, Kind
 from motor_control.controller.reference.ramp import Target, approach, round_to_rest
 from motor_control.controller.run import Config, Run, begin
+from motor_control.controller.timing.timekeeping import MARGIN, limit_held
 from motor_model.frozen_record import replace
 from motor_model.sample import Sample
 
@@ -89,7 +90,7 @@ def _apply_law(config: Config, run: Run, sample: Sample, demand: Demand, hold: b
     target = _approach(config, run, aim.speed, demand.kind, dt)
     ignored = _count_ignored(config, run, sample, dt)
     motion = follow_motion(run.motion, sample, config.faults.slot, dt, config.voltage_limit, run.faults.periods.regular)
-    allowed = _allow(config, run, target, speed, motion)
+    allowed = _allow(config, run, aim.speed, target, speed, motion)
     known = config.single_channel or seen is not None
     rests = known and target.reference == 0.0 and (run.rests or speed == 0.0)
     if rests:
@@ -119,7 +120,7 @@ def _apply_law(config: Config, run: Run, sample: Sample, demand: Demand, hold: b
         place=place,
         rests=rests,
     )
-    reason = _explain(config, run, after, allowed, aim.note)
+    reason = _explain(config, run, after, allowed, terms) or aim.note or config.note
     warning = ignored > IGNORED_TIME or bool(config.note or aim.note)
     return Output(RUNNING, reason, target.reference, speed, terms, sigma, innovation, warning, fault), after
 
@@ -151,17 +152,18 @@ def _count_ignored(config: Config, run: Run, sample: Sample, dt: float) -> float
     return run.ignored + min(dt, IGNORED_STEP) if sample.voltage == 0.0 and asked_much else 0.0
 
 
-def _explain(config: Config, before: Run, after: Run, allowed: span.Span, note: str) -> str:
+def _explain(config: Config, before: Run, after: Run, allowed: span.Span, terms: pi.Terms) -> str:
     """Explain what keeps the motor from what is asked for, as a sentence; "" where nothing does."""
     if after.ignored > IGNORED_TIME:
         return IGNORED.format(before.asked)
     if allowed.braking:
         return BRAKING.format(reversal_speed_of(config, after.motion))
-    return note or config.note
+    kept = terms.saturated and 0.0 < abs(terms.voltage) < FULL * config.voltage_limit
+    return before.caution if kept and abs(terms.error) > MARGIN * abs(after.reference) else ""
 
 
-def _allow(config: Config, run: Run, target: Target, speed: float, motion: Motion) -> span.Span:
-    """Find the voltages that are allowed."""
+def _allow(config: Config, run: Run, wanted: float, target: Target, speed: float, motion: Motion) -> span.Span:
+    """Find the voltages that are allowed, on the way to a speed [rad/s]."""
     limit, slow = config.voltage_limit, reversal_speed_of(config, motion)
     if not config.single_channel or isnan(target.reference):
         allowed = span.both_ways(limit)
@@ -170,6 +172,8 @@ def _allow(config: Config, run: Run, target: Target, speed: float, motion: Motio
         allowed = span.known(target.reference, speed, forward, limit, slow)
     else:
         allowed = span.toward(target.reference, speed, limit, slow, run.reversing)
+    if run.caution and not isnan(target.reference):
+        allowed = limit_held(allowed, motion, wanted, target.reference, speed)
     if config.plug_limit >= 2.0:
         return allowed
     learnt = limit / motion.fastest(limit)  # 0: nothing is learnt yet

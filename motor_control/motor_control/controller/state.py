@@ -8,7 +8,6 @@ from math import inf, nan
 
 from motor_control.controller.faults import detection
 from motor_control.controller.interruptions import Interruptions
-from motor_control.controller.latency import LatencyState
 from motor_control.controller.motion import Motion
 from motor_control.controller.plant_watch import PlantWatch
 from motor_control.controller.reference import position_law
@@ -16,6 +15,8 @@ from motor_control.controller.reference.demand import Demand, Kind, Source
 from motor_control.controller.reference.senders import Message, Senders
 from motor_control.controller.reference.sequence import GOES_ON, LONGEST
 from motor_control.controller.run import Config, Run
+from motor_control.controller.timing.latency import LatencyState
+from motor_control.controller.timing.timekeeping import Timekeeping
 from motor_model.frozen_record import replace
 from motor_model.sensing.mains_rhythm import Rhythm
 from motor_model.sensing.repeated_stops import RepeatedStops
@@ -61,6 +62,7 @@ class State:
     drives: bool = False  # the latest voltage was ours, so the next has to be too
     plant: PlantWatch | None = None
     latency: LatencyState | None = None
+    timing: Timekeeping = Timekeeping()  # whether this loop keeps its time
     rhythm: Rhythm = Rhythm()  # of the edges, whether or not the motor runs
     motion: Motion | None = None  # what is known of the motor, from run to run
     faults: detection.State | None = None  # what the latest run has seen of faults

@@ -4,7 +4,7 @@ from math import exp, inf, tau
 
 import pytest
 
-from motor_control.controller.motion import FAST, Motion, follow_motion
+from motor_control.controller.motion import FAST, HELD, SLOW, Motion, follow_motion
 from motor_model.sample import Sample
 
 SLOT = tau / 96
@@ -86,3 +86,22 @@ def test_a_slow_motion_under_a_load_does_not_make_the_motor_slow() -> None:
     assert follow(fast)[-1].fastest(12.0) == pytest.approx(164.0, rel=0.05)
     jumped = follow_motion(follow(fast)[-1], Sample(10**9, 100.0, 7.3, 10**6), SLOT, 0.005, 12.0)  # of the count
     assert jumped.fastest(12.0) == pytest.approx(164.0, rel=0.05)
+
+
+def test_what_holds_a_speed_is_learnt_of_even_voltages_alone() -> None:
+    """After 0 V for a moment the average of the last 0.15 s is a sixth too low, and no voltage that holds the speed."""
+    dip = [(50.0, 3.85)] * 200 + [(50.0, 0.0)] * 10 + [(50.0, 3.85)] * 100
+    seen = follow(dip, slot=0.0)
+    assert seen[199].held_voltage == pytest.approx(3.85, rel=0.01)
+    assert len({motion.held_speed for motion in seen[199:210]}) == 1
+    assert min(motion.held_voltage for motion in seen[199:]) > (1.0 - 1.5 * HELD) * 3.85 > seen[230].slow_voltage
+    assert min(motion.steady_voltage for motion in seen[199:]) < 0.92 * 3.85  # good enough to tell faults by
+
+
+@pytest.mark.parametrize(("share", "learnt"), [(0.9 * HELD, True), (1.5 * HELD, False)])
+def test_a_voltage_that_still_moves_holds_no_speed(share: float, learnt: bool) -> None:
+    """Of a ramp of the voltage the two averages differ by the slope times the difference of their time constants."""
+    slope = share * 4.0 / (SLOW - FAST)
+    rows = [(50.0, 4.0)] * 200 + [(50.0, 4.0 + slope * k / 200.0) for k in range(200)]
+    last = follow(rows, slot=0.0)[-1]
+    assert (last.held_voltage > 4.5) is learnt

@@ -7,7 +7,7 @@ from tiers import keep_fast
 
 from motor_control.configuration import config_of
 from motor_control.controller import controller
-from motor_control.controller.latency import DRIFT, MOST, Echo, LatencyState, follow_echo, track_latency
+from motor_control.controller.timing.latency import DRIFT, MOST, Echo, LatencyState, follow_echo, track_latency
 from motor_model.sample import Sample
 from motor_model.sensing.board import BoardConfig, SimulatedBoard
 
