@@ -36,6 +36,7 @@ from motor_control.controller.timing.timekeeping import (
     PERIODS,
     Timekeeping,
     count_lapse,
+    find_holding_voltage,
     find_longest_hold,
     keep_time,
     regain,
@@ -110,9 +111,10 @@ def _keep_time(config: Config, state: State, sample: Sample, age: float, now: fl
     gap = max(now - state.arrival, (sample.sample_time - state.plant.sample_time) * 1e-9)
     hold = find_longest_hold(config.gains, config.faults, state.motion, config.latency_limit)
     hold = max(hold, PERIODS * config.sample_period)
-    after = keep_time(state.timing, gap, hold, age > config.latency_limit, config.sample_timeout)
-    driven = state.drives and state.demand is not None
-    return count_lapse(state.timing, after, gap, config.sample_timeout) if driven else after
+    demand, timeout = state.demand, config.sample_timeout
+    known = demand is not None and demand.kind is Kind.SPEED and find_holding_voltage(state.motion, demand.value) > 0.0
+    after = keep_time(state.timing, gap, hold, timeout, age > config.latency_limit, known)
+    return count_lapse(state.timing, after, gap, timeout) if state.drives and demand is not None else after
 
 
 def _is_unheard(before: Run | None, after: State, now: float) -> bool:
@@ -141,10 +143,10 @@ def _answer(config: Config, state: State, sample: Sample, age: float, now: float
     if demand is None or name != RUNNING or (mistake and state.run is None):
         name, reason = (STOPPED, mistake) if mistake else (name, reason)
         return replace(halt(name, reason, shown, sample.speed), warning=bool(state.dropped)), replace(state, run=None)
-    waiting = STALE.format(1e3 * age, 1e3 * config.latency_limit) if state.timing.late else state.timing.waiting
+    waiting = STALE.format(1e3 * age, 1e3 * config.latency_limit) if state.timing.stale else state.timing.waiting
     wanted = Demand(0.0) if mistake else demand
     before = _continue_run(config, state, sample)
-    output, run = law.step(config, before, sample, wanted, bool(waiting or mistake))
+    output, run = law.step(config, before, sample, wanted, bool(waiting or mistake or state.timing.late))
     window = config.latency_limit + EARLIER * config.sample_period
     answer = before.sample_time, before.asked
     held_back, echo = follow_echo(before.echo, sample, answer, window, config.voltage_limit)

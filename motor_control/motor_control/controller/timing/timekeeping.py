@@ -7,7 +7,9 @@ is not scheduled, and the next answer carries it back: a swing as long as the lo
     cautious  after an answer that came too late, the voltage stays within `MARGIN` of what held this speed in the last
               steady motion, but for 0 V where the motor is too fast: held for however long, it does not carry the motor
               away. That ends when the controller has kept its time for a while and the motor is back at its speed.
-    waiting   a lapse is a sample too old to act on, or a silence that ends a run: 0 V, by us or by the plant. After the
+    stale     a sample too old to act on gets 0 V. But where it is the first, and it is known what holds the speed, it
+              gets that: as a rule it had come just when the controller was held up, and the next one is fresh.
+    waiting   a lapse is 0 V for such a sample, or a silence that ends a run, for which the plant gives 0 V. After the
               second one soon after another, the motor gets 0 V until time has been kept; after each further one for
               twice as long.
 
@@ -49,6 +51,7 @@ class Timekeeping:
     longest: float = 0.0  # the latest time between two answers that was too long
     cautious: bool = False
     late: bool = False  # the latest sample was too old to act on
+    stale: bool = False  # it was, and gets 0 V
     lapses: float = 0.0  # less what is forgotten of them
     wait: float = 0.0  # for which time has to be kept before the motor is driven; 0: it may be
 
@@ -73,8 +76,13 @@ def find_longest_hold(gains: pi.Config, faults: FaultConfig, motion: Motion | No
     return time_constant * log1p(kv / gains.kp)
 
 
-def keep_time(before: Timekeeping, gap: float, longest_hold: float, late: bool, sample_timeout: float) -> Timekeeping:
-    """Follow one sample that is answered `gap` [s] after the one before; late: it is too old to act on."""
+def keep_time(
+    before: Timekeeping, gap: float, longest_hold: float, sample_timeout: float, late: bool = False, known: bool = False
+) -> Timekeeping:
+    """Follow one sample that is answered `gap` [s] after the one before.
+
+    late: it is too old to act on; known: what holds the speed that is asked for is.
+    """
     missed = late or gap > longest_hold
     kept = 0.0 if missed else before.kept + gap
     return Timekeeping(
@@ -82,6 +90,7 @@ def keep_time(before: Timekeeping, gap: float, longest_hold: float, late: bool, 
         gap if missed else before.longest,
         missed or (before.cautious and kept < RESIGNED * sample_timeout),
         late,
+        late and (before.late or not known),
         max(before.lapses - gap / (FORGET * sample_timeout), 0.0),
         before.wait if kept < before.wait else 0.0,
     )
@@ -89,7 +98,7 @@ def keep_time(before: Timekeeping, gap: float, longest_hold: float, late: bool, 
 
 def count_lapse(before: Timekeeping, after: Timekeeping, gap: float, sample_timeout: float) -> Timekeeping:
     """Count a lapse of a loop that drives the motor, if this is one; while it waits there is none."""
-    lapsed = (after.late and not before.late) or gap > sample_timeout
+    lapsed = (after.stale and not before.stale) or gap > sample_timeout
     if before.wait or not lapsed:
         return after
     lapses = after.lapses + 1.0
@@ -103,15 +112,22 @@ def regain(timing: Timekeeping, reference: float, speed: float, sample_timeout: 
     return replace(timing, cautious=False) if back and timing.kept >= KEPT * sample_timeout else timing
 
 
+def find_holding_voltage(motion: Motion | None, wanted: float) -> float:
+    """Find the voltage [V], a magnitude, that holds a speed [rad/s] by the last steady motion; 0: that is not known."""
+    if motion is None or motion.held_speed == 0.0:
+        return 0.0
+    share = wanted * motion.steady_way / motion.held_speed
+    return motion.held_voltage * share if NEAR[0] <= share <= NEAR[1] else 0.0
+
+
 def limit_held(allowed: Span, motion: Motion, wanted: float, reference: float, speed: float) -> Span:
     """Keep the voltage within what may be held, where that is known.
 
     wanted, reference, speed [rad/s]: what is asked for, the same behind the rate limit, and how fast the motor turns.
     """
-    share = wanted * motion.steady_way / motion.held_speed if motion.held_speed > 0.0 else 0.0
-    if not NEAR[0] <= share <= NEAR[1]:
+    volts = find_holding_voltage(motion, wanted)
+    if volts == 0.0:
         return allowed
-    volts = motion.held_voltage * share
     less = reference != wanted or speed / wanted > 1.0 + MARGIN  # than what holds the speed may be right
     ends = (0.0 if less else (1.0 - MARGIN) * volts, (1.0 + MARGIN) * volts)
     low, high = sorted(copysign(end, wanted) for end in ends)

@@ -56,7 +56,7 @@ def test_a_plant_whose_clock_stood_still_is_not_late_for_ever(pause: float, late
 
 @pytest.mark.parametrize("rate", [200.0, 1000.0])
 def test_a_loop_that_was_held_up_does_not_swing(rate: float) -> None:
-    """Held up for 30 ms, a late sample answered, held up for 60 ms under its 0 V: 23 % too fast after that."""
+    """Held up for 30 ms, a late sample answered, held up for 60 ms: it got 0 V, and was 23 % too fast after that."""
     board = BoardConfig(sample_rate=rate)
     simulated, config = SimulatedBoard(motor(), board), config_of(DEFAULTS, board.info(motor()))
     state, voltage, waiting, stay = controller.State(), 0.0, round(0.03 * rate), round(0.09 * rate)
@@ -70,8 +70,7 @@ def test_a_loop_that_was_held_up_does_not_swing(rate: float) -> None:
             voltage = output.terms.voltage
             reasons.append(output.reason)
         speeds.append(simulated.speed if since >= 0 else 50.0)
-    assert sum("ms old" in reason for reason in reasons) == 1
-    assert min(speeds) < 30.0 and 50.0 < max(speeds) < 55.0
+    assert set(reasons) == {""} and 47.5 < min(speeds) < max(speeds) < 52.5
 
 
 def echoed(applied: list[float], asked: list[float], window: float = 0.03) -> tuple[str, float]:

@@ -69,14 +69,14 @@ def test_the_longest_hold_grows_with_the_motors_time_constant(scale: float) -> N
 
 
 def test_time_is_kept_up_to_the_longest_hold_and_with_samples_that_are_in_time() -> None:
-    kept = keep_time(Timekeeping(kept=1.0), 0.02, 0.02, False, TIMEOUT)
+    kept = keep_time(Timekeeping(kept=1.0), 0.02, 0.02, TIMEOUT)
     assert (kept.kept, kept.cautious) == (1.02, False)
     for missed in (
-        keep_time(kept, 0.0201, 0.02, False, TIMEOUT),
-        keep_time(kept, 0.001, 0.02, True, TIMEOUT),
+        keep_time(kept, 0.0201, 0.02, TIMEOUT),
+        keep_time(kept, 0.001, 0.02, TIMEOUT, True),
     ):
         assert (missed.kept, missed.cautious, missed.waiting) == (0.0, True, "")
-    assert "held up for 20 ms" in keep_time(kept, 0.0201, 0.02, False, TIMEOUT).caution
+    assert "held up for 20 ms" in keep_time(kept, 0.0201, 0.02, TIMEOUT).caution
 
 
 @pytest.mark.parametrize(("more", "cautious"), [(-1e-6, True), (1e-6, False)])
@@ -86,13 +86,13 @@ def test_caution_ends_when_time_is_kept_and_the_motor_is_back_or_will_not_be(mor
     assert regain(timing, REFERENCE, back, TIMEOUT).cautious is cautious
     assert regain(timing, REFERENCE, away, TIMEOUT).cautious
     timing = Timekeeping(kept=RESIGNED * TIMEOUT + more - 0.001, cautious=True)
-    assert keep_time(timing, 0.001, 0.02, False, TIMEOUT).cautious is cautious
+    assert keep_time(timing, 0.001, 0.02, TIMEOUT).cautious is cautious
 
 
 def lapse(before: Timekeeping, gap: float = 0.03, late: bool = True) -> Timekeeping:
     """One sample of a loop that drives the motor, and one in time."""
-    after = count_lapse(before, keep_time(before, gap, 0.02, late, TIMEOUT), gap, TIMEOUT)
-    return keep_time(after, 0.001, 0.02, False, TIMEOUT)
+    after = count_lapse(before, keep_time(before, gap, 0.02, TIMEOUT, late), gap, TIMEOUT)
+    return keep_time(after, 0.001, 0.02, TIMEOUT)
 
 
 def test_after_the_second_lapse_time_has_to_be_kept_for_longer_and_longer() -> None:
@@ -103,15 +103,25 @@ def test_after_the_second_lapse_time_has_to_be_kept_for_longer_and_longer() -> N
         waits.append(timing.wait)
         assert "gets 0 V until it has kept its time for" in timing.waiting
         assert lapse(timing).lapses <= timing.lapses  # at 0 V there is none
-        almost = keep_time(timing, timing.wait - 0.0011, 1e3, False, TIMEOUT)
-        assert almost.waiting and not keep_time(almost, 0.0002, 1e3, False, TIMEOUT).waiting
+        almost = keep_time(timing, timing.wait - 0.0011, 1e3, TIMEOUT)
+        assert almost.waiting and not keep_time(almost, 0.0002, 1e3, TIMEOUT).waiting
         timing = replace(timing, wait=0.0)
     assert waits[:4] == [KEPT * TIMEOUT * 2.0**k for k in range(4)] and waits[-1] == KEPT * TIMEOUT * MOST_KEPT
 
 
+def test_the_first_old_sample_is_answered_with_what_holds_the_speed_where_that_is_known() -> None:
+    for known in (False, True):
+        first = keep_time(Timekeeping(), 0.03, 0.02, TIMEOUT, True, known)
+        second = keep_time(first, 0.001, 0.02, TIMEOUT, True, known)
+        fresh = keep_time(second, 0.001, 0.02, TIMEOUT, False, known)
+        assert (first.stale, second.stale, fresh.stale) == (not known, True, False)
+        assert bool(count_lapse(Timekeeping(), first, 0.03, TIMEOUT).lapses) is not known
+        assert bool(count_lapse(first, second, 0.001, TIMEOUT).lapses) is known  # one 0 V is one lapse
+
+
 @pytest.mark.parametrize(("seconds", "waits"), [(0.4 * FORGET * TIMEOUT, True), (0.6 * FORGET * TIMEOUT, False)])
 def test_a_lapse_is_forgotten(seconds: float, waits: bool) -> None:
-    timing = keep_time(lapse(Timekeeping()), seconds, inf, False, TIMEOUT)
+    timing = keep_time(lapse(Timekeeping()), seconds, inf, TIMEOUT)
     assert bool(lapse(timing).waiting) is waits
 
 
