@@ -1,9 +1,9 @@
 """The loop beside busy programs: simulation on one core, controller and seven endless loops on the other.
 
-Each rate in turn, `RUNS` times: the loop by itself, then with the loops beside it, then by itself while `model` is set (which reads
-the file, and loads or compiles what observer and feed-forward run on). What counts is the speed of the motor, sample by
-sample: within 5 % of its unloaded self, or 0 V with a reason, never a swing. A loop that has given up (at 0 V for more
-than a second) is asked again before the third phase, as its user would.
+Each rate in turn, three times: the loop by itself, then with the loops beside it, then by itself while `model` is set
+(which reads the file, and loads or compiles what observer and feed-forward run on). What counts is the speed of the
+motor, sample by sample: within 5 % of its unloaded self, or 0 V with a reason, never a swing. A loop that has given up
+(at 0 V for more than a second) is asked again before the third phase, as its user would.
 """
 
 import os
@@ -153,10 +153,11 @@ def main() -> int:
     os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
     stay_on_this_machine()
     rclpy.init(domain_id=int(soak_process.DOMAIN))
+    load = f"load average {os.getloadavg()[0]:.1f} at the beginning"
     lines = [
         "# The loop under load",
         "",
-        f"At {commit()}; {machine()}, shared; load average {os.getloadavg()[0]:.1f} at the beginning. ",
+        f"At {commit()}; {machine()}, shared with others; {load}. ",
     ]
     lines[-1] += f"{REFERENCE:g} rad/s, measured speed; {QUIET:g} s, {LOADED:g} s beside the endless loops."
     lines += ["", (__doc__ or "").split("\n\n")[1].strip(), ""]

@@ -113,7 +113,8 @@ def _keep_time(config: Config, state: State, sample: Sample, age: float, now: fl
     hold = max(hold, PERIODS * config.sample_period)
     demand, timeout = state.demand, config.sample_timeout
     known = demand is not None and demand.kind is Kind.SPEED and find_holding_voltage(state.motion, demand.value) > 0.0
-    after = keep_time(state.timing, gap, hold, timeout, age > config.latency_limit, known)
+    late = age if age > config.latency_limit else 0.0
+    after = keep_time(state.timing, gap, hold, timeout, late, known)
     return count_lapse(state.timing, after, gap, timeout) if state.drives and demand is not None else after
 
 

@@ -48,7 +48,7 @@ class Timekeeping:
     """How the controller has kept its time so far; times are [s]."""
 
     kept: float = inf  # for which no answer was too late
-    longest: float = 0.0  # the latest time between two answers that was too long
+    longest: float = 0.0  # between two answers, or of a sample to its answer, when it was too long last
     cautious: bool = False
     late: bool = False  # the latest sample was too old to act on
     stale: bool = False  # it was, and gets 0 V
@@ -77,20 +77,20 @@ def find_longest_hold(gains: pi.Config, faults: FaultConfig, motion: Motion | No
 
 
 def keep_time(
-    before: Timekeeping, gap: float, longest_hold: float, sample_timeout: float, late: bool = False, known: bool = False
+    before: Timekeeping, gap: float, longest_hold: float, sample_timeout: float, late: float = 0.0, known: bool = False
 ) -> Timekeeping:
     """Follow one sample that is answered `gap` [s] after the one before.
 
-    late: it is too old to act on; known: what holds the speed that is asked for is.
+    late [s]: the age at which it is too old to act on, 0: it is not; known: what holds the speed that is asked for is.
     """
-    missed = late or gap > longest_hold
+    missed = late > 0.0 or gap > longest_hold
     kept = 0.0 if missed else before.kept + gap
     return Timekeeping(
         kept,
-        gap if missed else before.longest,
+        max(gap, late) if missed else before.longest,
         missed or (before.cautious and kept < RESIGNED * sample_timeout),
-        late,
-        late and (before.late or not known),
+        late > 0.0,
+        late > 0.0 and (before.late or not known),
         max(before.lapses - gap / (FORGET * sample_timeout), 0.0),
         before.wait if kept < before.wait else 0.0,
     )

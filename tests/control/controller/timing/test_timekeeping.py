@@ -73,10 +73,11 @@ def test_time_is_kept_up_to_the_longest_hold_and_with_samples_that_are_in_time()
     assert (kept.kept, kept.cautious) == (1.02, False)
     for missed in (
         keep_time(kept, 0.0201, 0.02, TIMEOUT),
-        keep_time(kept, 0.001, 0.02, TIMEOUT, True),
+        keep_time(kept, 0.001, 0.02, TIMEOUT, 0.025),
     ):
         assert (missed.kept, missed.cautious, missed.waiting) == (0.0, True, "")
     assert "held up for 20 ms" in keep_time(kept, 0.0201, 0.02, TIMEOUT).caution
+    assert "held up for 25 ms" in keep_time(kept, 0.005, 0.02, TIMEOUT, 0.025).caution
 
 
 @pytest.mark.parametrize(("more", "cautious"), [(-1e-6, True), (1e-6, False)])
@@ -89,7 +90,7 @@ def test_caution_ends_when_time_is_kept_and_the_motor_is_back_or_will_not_be(mor
     assert keep_time(timing, 0.001, 0.02, TIMEOUT).cautious is cautious
 
 
-def lapse(before: Timekeeping, gap: float = 0.03, late: bool = True) -> Timekeeping:
+def lapse(before: Timekeeping, gap: float = 0.03, late: float = 0.025) -> Timekeeping:
     """One sample of a loop that drives the motor, and one in time."""
     after = count_lapse(before, keep_time(before, gap, 0.02, TIMEOUT, late), gap, TIMEOUT)
     return keep_time(after, 0.001, 0.02, TIMEOUT)
@@ -111,9 +112,9 @@ def test_after_the_second_lapse_time_has_to_be_kept_for_longer_and_longer() -> N
 
 def test_the_first_old_sample_is_answered_with_what_holds_the_speed_where_that_is_known() -> None:
     for known in (False, True):
-        first = keep_time(Timekeeping(), 0.03, 0.02, TIMEOUT, True, known)
-        second = keep_time(first, 0.001, 0.02, TIMEOUT, True, known)
-        fresh = keep_time(second, 0.001, 0.02, TIMEOUT, False, known)
+        first = keep_time(Timekeeping(), 0.03, 0.02, TIMEOUT, 0.025, known)
+        second = keep_time(first, 0.001, 0.02, TIMEOUT, 0.025, known)
+        fresh = keep_time(second, 0.001, 0.02, TIMEOUT, 0.0, known)
         assert (first.stale, second.stale, fresh.stale) == (not known, True, False)
         assert bool(count_lapse(Timekeeping(), first, 0.03, TIMEOUT).lapses) is not known
         assert bool(count_lapse(first, second, 0.001, TIMEOUT).lapses) is known  # one 0 V is one lapse
@@ -127,7 +128,7 @@ def test_a_lapse_is_forgotten(seconds: float, waits: bool) -> None:
 
 @pytest.mark.parametrize(("gap", "counts"), [(TIMEOUT, False), (1.01 * TIMEOUT, True)])
 def test_a_silence_that_ends_a_run_is_a_lapse_as_well(gap: float, counts: bool) -> None:
-    assert (lapse(Timekeeping(), gap, late=False).lapses > 0.0) is counts
+    assert (lapse(Timekeeping(), gap, late=0.0).lapses > 0.0) is counts
 
 
 @pytest.mark.parametrize("way", [1.0, -1.0])
