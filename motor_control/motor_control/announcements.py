@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass, replace
 from math import inf, isfinite, isnan
 
-from motor_control.controller.output import DISABLED, RUNNING, Output
+from motor_control.controller.output import DISABLED, NO_SAMPLES, RUNNING, Output
 from motor_control.controller.run import Config
 
 SATURATED_TIME = 1.0  # [s] of all the voltage, and still slower than the reference: that is no transient
@@ -66,7 +66,11 @@ def announce(told: Told, output: Output, wanted: float | None, config: Config, n
 def _describe_change(told: Told, output: Output) -> list[Line]:
     """Describe a change of state or reason."""
     if output.reason:
-        return [Line(output.state != DISABLED or output.warning, output.reason)] if told.state or output.warning else []
+        # What kept a motor back at the start was not said, so its end is none either: that it waits for a reference, the
+        # first line of all says. That samples come is news.
+        waits = output.state == DISABLED and not told.latest and told.state != NO_SAMPLES
+        news = output.warning or (told.state and not waits)
+        return [Line(output.state != DISABLED or output.warning, output.reason)] if news else []
     if output.state == RUNNING and told.state in ("", DISABLED):
         return []  # the reference has been said
     return [Line(False, "Running again." if told.state != RUNNING else "Running without restriction.")]

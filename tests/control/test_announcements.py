@@ -40,6 +40,18 @@ def test_a_run_is_one_line_and_how_to_let_go() -> None:
     ]
 
 
+def test_what_was_not_said_is_not_said_to_be_over() -> None:
+    """A sample that comes before motor/info, as at a start on a busy computer, made a line more."""
+    unheard, waits = (
+        halt(STOPPED, "No motor/info has come yet.", 0.0, 0.0),
+        halt(DISABLED, "No reference yet.", 0.0, 0.0),
+    )
+    started = [(unheard, None)] * 3 + [(waits, None)] * 20
+    assert say(started) == []
+    again = [(running(), 50.0), (unheard, 50.0), (waits, 50.0)]
+    assert say(started + again)[1:] == ["No motor/info has come yet.", "No reference yet."]
+
+
 def test_each_new_reference_is_a_line_and_a_joystick_a_few() -> None:
     said = say([(running(), 50.0)] * 300 + [(running(), 60.0)] * 300 + [(running(), 50.0)] * 3)
     assert [line.split(".")[0] for line in said] == [f"Reference {wanted} rad/s" for wanted in (50, 60, 50)]
