@@ -66,8 +66,8 @@ def announce(told: Told, output: Output, wanted: float | None, config: Config, n
 def _describe_change(told: Told, output: Output) -> list[Line]:
     """Describe a change of state or reason."""
     if output.reason:
-        # What kept a motor back at the start was not said, so its end is none either: that it waits for a reference, the
-        # first line of all says. That samples come is news.
+        # What kept a motor back at the start was not said, and its end is no news: that it waits for a reference, the
+        # first line of all says. But that samples come is.
         waits = output.state == DISABLED and not told.latest and told.state != NO_SAMPLES
         news = output.warning or (told.state and not waits)
         return [Line(output.state != DISABLED or output.warning, output.reason)] if news else []

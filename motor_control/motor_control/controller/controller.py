@@ -114,7 +114,7 @@ def _keep_time(config: Config, state: State, sample: Sample, age: float, now: fl
     demand, timeout = state.demand, config.sample_timeout
     known = demand is not None and demand.kind is Kind.SPEED and find_holding_voltage(state.motion, demand.value) > 0.0
     late = age if age > config.latency_limit else 0.0
-    after = keep_time(state.timing, gap, hold, timeout, late, known)
+    after = keep_time(state.timing, gap, hold, timeout, late, config.latency_limit if known else 0.0)
     return count_lapse(state.timing, after, gap, timeout) if state.drives and demand is not None else after
 
 
@@ -147,7 +147,7 @@ def _answer(config: Config, state: State, sample: Sample, age: float, now: float
     waiting = STALE.format(1e3 * age, 1e3 * config.latency_limit) if state.timing.stale else state.timing.waiting
     wanted = Demand(0.0) if mistake else demand
     before = _continue_run(config, state, sample)
-    output, run = law.step(config, before, sample, wanted, bool(waiting or mistake or state.timing.late))
+    output, run = law.step(config, before, sample, wanted, bool(waiting or mistake or state.timing.old is not None))
     window = config.latency_limit + EARLIER * config.sample_period
     answer = before.sample_time, before.asked
     held_back, echo = follow_echo(before.echo, sample, answer, window, config.voltage_limit)

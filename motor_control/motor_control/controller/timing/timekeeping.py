@@ -7,8 +7,9 @@ is not scheduled, and the next answer carries it back: a swing as long as the lo
     cautious  after an answer that came too late, the voltage stays within `MARGIN` of what held this speed in the last
               steady motion, but for 0 V where the motor is too fast: held for however long, it does not carry the motor
               away. That ends when the controller has kept its time for a while and the motor is back at its speed.
-    stale     a sample too old to act on gets 0 V. But where it is the first, and it is known what holds the speed, it
-              gets that: as a rule it had come just when the controller was held up, and the next one is fresh.
+    stale     a sample too old to act on gets 0 V. But where it is known what holds the speed, it gets that until such
+              samples have come for as long as one may be old: as a rule they had come just when the controller was held
+              up, and the next ones are fresh.
     waiting   a lapse is 0 V for such a sample, or a silence that ends a run, for which the plant gives 0 V. After the
               second one soon after another, the motor gets 0 V until time has been kept; after each further one for
               twice as long.
@@ -50,8 +51,8 @@ class Timekeeping:
     kept: float = inf  # for which no answer was too late
     longest: float = 0.0  # between two answers, or of a sample to its answer, when it was too long last
     cautious: bool = False
-    late: bool = False  # the latest sample was too old to act on
-    stale: bool = False  # it was, and gets 0 V
+    old: float | None = None  # for which samples have been too old to act on; None: the latest one was not
+    stale: bool = False  # they have been for too long, and get 0 V
     lapses: float = 0.0  # less what is forgotten of them
     wait: float = 0.0  # for which time has to be kept before the motor is driven; 0: it may be
 
@@ -77,20 +78,21 @@ def find_longest_hold(gains: pi.Config, faults: FaultConfig, motion: Motion | No
 
 
 def keep_time(
-    before: Timekeeping, gap: float, longest_hold: float, sample_timeout: float, late: float = 0.0, known: bool = False
+    before: Timekeeping, gap: float, longest_hold: float, sample_timeout: float, late: float = 0.0, borne: float = 0.0
 ) -> Timekeeping:
     """Follow one sample that is answered `gap` [s] after the one before.
 
-    late [s]: the age at which it is too old to act on, 0: it is not; known: what holds the speed that is asked for is.
+    late [s]: the age at which it is too old to act on, 0: it is not; borne [s]: for how long such samples are.
     """
     missed = late > 0.0 or gap > longest_hold
     kept = 0.0 if missed else before.kept + gap
+    since = 0.0 if before.old is None else before.old + min(gap, longest_hold)  # and no pause in between
     return Timekeeping(
         kept,
         max(gap, late) if missed else before.longest,
         missed or (before.cautious and kept < RESIGNED * sample_timeout),
-        late > 0.0,
-        late > 0.0 and (before.late or not known),
+        since if late > 0.0 else None,
+        late > 0.0 and since >= borne,
         max(before.lapses - gap / (FORGET * sample_timeout), 0.0),
         before.wait if kept < before.wait else 0.0,
     )

@@ -110,14 +110,17 @@ def test_after_the_second_lapse_time_has_to_be_kept_for_longer_and_longer() -> N
     assert waits[:4] == [KEPT * TIMEOUT * 2.0**k for k in range(4)] and waits[-1] == KEPT * TIMEOUT * MOST_KEPT
 
 
-def test_the_first_old_sample_is_answered_with_what_holds_the_speed_where_that_is_known() -> None:
-    for known in (False, True):
-        first = keep_time(Timekeeping(), 0.03, 0.02, TIMEOUT, 0.025, known)
-        second = keep_time(first, 0.001, 0.02, TIMEOUT, 0.025, known)
-        fresh = keep_time(second, 0.001, 0.02, TIMEOUT, 0.0, known)
-        assert (first.stale, second.stale, fresh.stale) == (not known, True, False)
-        assert bool(count_lapse(Timekeeping(), first, 0.03, TIMEOUT).lapses) is not known
-        assert bool(count_lapse(first, second, 0.001, TIMEOUT).lapses) is known  # one 0 V is one lapse
+@pytest.mark.parametrize(("borne", "stale"), [(0.0, [True, True, True]), (0.02, [False, False, True])])
+def test_old_samples_get_what_holds_the_speed_for_as_long_as_one_may_be_old(borne: float, stale: list[bool]) -> None:
+    """Where it is known; a pause between two of them counts for no more than an answer may be held."""
+    first = keep_time(Timekeeping(), 0.03, 0.019, TIMEOUT, 0.025, borne)
+    second = keep_time(first, 0.09, 0.019, TIMEOUT, 0.025, borne)
+    third = keep_time(second, 0.001, 0.019, TIMEOUT, 0.025, borne)
+    assert [one.stale for one in (first, second, third)] == stale
+    fresh = keep_time(third, 0.001, 0.019, TIMEOUT)
+    assert (fresh.stale, fresh.old, first.old, third.old) == (False, None, 0.0, pytest.approx(0.02))
+    lapses = [count_lapse(*pair, 0.03, TIMEOUT).lapses > 0.0 for pair in ((Timekeeping(), first), (second, third))]
+    assert lapses == [stale[0], not stale[1]]  # one 0 V is one lapse
 
 
 @pytest.mark.parametrize(("seconds", "waits"), [(0.4 * FORGET * TIMEOUT, True), (0.6 * FORGET * TIMEOUT, False)])
