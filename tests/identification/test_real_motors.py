@@ -192,7 +192,7 @@ def found_in(recordings: list[Recording]) -> tuple[Diagnosis, dict[str, tuple[st
 def test_diagnosis_of_a_telegraph_one_way() -> None:
     """A delay, and an offset that friction, a constant load and a dead zone make alike."""
     _found, with_static = found_in(undc("prbs", "static"))  # a load that pushes at standstill is out
-    assert with_static == {"coulomb_friction": (), "transport_delay": ()}  # a dead zone is less likely by e^22
+    assert with_static == {"coulomb_friction": ("dead_zone",), "transport_delay": ()}
     # Nobody says what a count is: every speed is a multiple of 6.43 deg/s, and that is what the floor is made of.
     form = CsvForm("t", "u", "y", Kind.SPEED, "deg/s")
     log = read_log(DATA / "undc/prbs_2026-08-14.csv", form)

@@ -115,8 +115,9 @@ SAME_GAP = 1.001
 # recording and a constant one.
 SAME_MOTION = 0.01
 # Waves of a line over the angle, at least, and those from which on it is its own evidence. Measured: 1.7 of 0.02 V for
-# a torque of 0.04 V, in a motor that swung to and fro; 35 and more for ripples that were there.
-LEAST_WAVES, MANY_WAVES = 4.0, 30.0
+# a torque of 0.04 V, in a motor that swung to and fro; 4.6 of 1,924 cycles a turn in strokes of 0.015 rad of a real
+# motor, where friction had another shape at its reversals; 35 and more for ripples that were there.
+LEAST_WAVES, MANY_WAVES = 6.0, 30.0
 # Likelihoods that the search for a candidate's errors may ask for, and that for a model's to begin with.
 CANDIDATE_EVALUATIONS, FINAL_EVALUATIONS = 40, 120
 # How often a model is fitted again from where the best finding leads, beside a random torque.

@@ -243,8 +243,8 @@ def test_a_line_comes_back_a_few_times(waves: float, found: bool) -> None:
 def test_lines_of_many_waves_are_their_own_evidence(waves: float, alone: bool) -> None:
     test = tried("torque_ripple", ripple_voltage=0.4, ripple_cycles=6.0, ripple_phase=0.5)
     line = replace(test.model)
-    cycles = line.estimate.theta[line.estimate.problem.unknowns.names.index("ripple_cycles")]
-    line.__dict__["turns"] = waves * thresholds.MANY_WAVES / cycles
+    seen = count_waves(test.model, "torque_ripple") / test.model.turns
+    line.__dict__["turns"] = waves * thresholds.MANY_WAVES / seen
     assert adds_only_lines(line, test.before) is alone
     assert not adds_only_lines(line, line)  # what adds nothing adds no line
     friction = tried("coulomb_friction", ks=0.5)

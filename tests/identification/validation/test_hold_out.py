@@ -16,12 +16,16 @@ from motor_identification.noise.likelihood import Noise
 from motor_identification.recording import Recording, check
 from motor_identification.validation.hold_out import (
     LEAST_SWING,
+    LEAST_SWING_SHARE,
+    LEAST_TRAVEL_SHARE,
+    STRETCHES,
     BlocksOfSame,
     HoldOut,
     OtherRecordings,
     WholeRecordings,
     _leave_out_few,
     make_hold_out,
+    measure_held_travel,
     sum_held_swing,
 )
 
@@ -151,6 +155,20 @@ def test_nothing_is_held_out_where_the_command_hardly_swings_there(recordings: l
     swings = [measure_swings(recording) for recording in recordings]
     held, every = sum_held_swing(hold_out.problem, swings, hold_out.scored_blocks), sum(map(np.sum, swings))
     assert held == pytest.approx(every) if hold_out.seen else LEAST_SWING <= held < 0.5 * every
+
+
+def test_blocks_that_are_in_step_with_a_train_of_pulses_are_stretched() -> None:
+    """Every fourth block of this one is a stop: the command swings in it as much as by chance, and nothing turns."""
+    pulses = [drive(*[8.0, 0.0, -8.0, 0.0] * 12)]
+    hold_out, in_step = make_hold_out(pulses, []), TimeBlocks(4)
+    swings = [measure_swings(recording) for recording in pulses]
+    every = sum(map(np.sum, swings))
+    assert sum_held_swing(hold_out.problem, swings, in_step) > LEAST_SWING_SHARE * every / 4
+    assert measure_held_travel(hold_out.problem, in_step) < 0.5 * LEAST_TRAVEL_SHARE
+    assert LEAST_TRAVEL_SHARE < measure_held_travel(hold_out.problem, hold_out.scored_blocks) < 1.5
+    assert hold_out.scored_blocks.stretch == STRETCHES[1]
+    random = make_hold_out([TRAINING], [])  # of which the usual blocks show as much as others
+    assert random.scored_blocks.stretch == 1.0 and measure_held_travel(random.problem, in_step) > LEAST_TRAVEL_SHARE
 
 
 def test_where_nothing_is_held_out_all_is_fitted_and_counts() -> None:

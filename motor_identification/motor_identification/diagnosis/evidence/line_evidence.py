@@ -1,7 +1,9 @@
 """Judge a line in a spectrum over the angle: random slots have a first harmonic by chance, slow torques a few waves."""
 
 from collections.abc import Sequence
-from math import inf
+from math import inf, tau
+
+import numpy as np
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
@@ -14,13 +16,22 @@ def count_waves(model: Model, effect: str) -> float:
     """Count the waves over the angle that an effect of a model has from one end of its motion to the other.
 
     Infinitely many of one that has none, or of which no line was found to fit. What is on the disc has one in a turn.
+    Only as far as the motion was slow enough for two intervals a wave: of faster motion it is an alias.
     """
     if effect not in model.effects:
         return inf
     if EFFECT_BY_NAME[effect].on_disc:
         return model.turns
     cycles = _find_cycles(model, effect)
-    return inf if cycles is None else cycles * model.turns
+    return inf if cycles is None else cycles * model.turns * _find_share_seen(model, cycles)
+
+
+def _find_share_seen(model: Model, cycles: float) -> float:
+    """Find the share of the travel in which an interval is at most half a wave of so many cycles a turn."""
+    travels = [data.gear * np.abs(data.speed) * data.duration for data in model.estimate.problem.intervals]
+    every = sum(float(travel.sum()) for travel in travels)
+    seen = sum(float(travel[cycles * travel <= 0.5 * tau].sum()) for travel in travels)
+    return seen / every if every > 0.0 else 0.0
 
 
 def adds_only_lines(model: Model, start: Model) -> bool:

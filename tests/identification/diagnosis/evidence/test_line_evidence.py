@@ -10,9 +10,11 @@ import pytest
 from stub_models import stub_model, stub_test
 
 from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest
-from motor_identification.diagnosis.evidence.line_evidence import drop_chance_harmonics
+from motor_identification.diagnosis.evidence.line_evidence import count_waves, drop_chance_harmonics
 from motor_identification.estimation.estimate import Estimate
+from motor_identification.measurement.intervals import index_intervals
 from motor_identification.noise.likelihood import Noise
 
 
@@ -47,3 +49,25 @@ def test_what_random_slots_do_by_chance_is_dropped_with_the_torque_that_does_it_
 
 def test_a_line_that_was_not_found_is_no_chance() -> None:
     assert len(drop_chance_harmonics([line("encoder_eccentricity", 0.0), line("torque_ripple", 0.0)])) == 2
+
+
+@pytest.mark.parametrize(
+    ("speed", "cycles", "seen"),
+    [
+        ((10.0, 10.0), 31.0, 1.0),  # of 10 rad/s an interval of 10 ms is 0.1 rad: half a wave of 31.4 cycles a turn
+        ((10.0, 10.0), 32.0, 0.0),
+        ((10.0, -2.0), 32.0, 1.0 / 6.0),  # of the travel
+        ((0.0, 0.0), 1.0, 0.0),
+    ],
+)
+def test_waves_that_are_shorter_than_two_intervals_are_not_seen(
+    speed: tuple[float, float], cycles: float, seen: float
+) -> None:
+    """A ripple of 126 cycles a turn was named in rows of 10 ms of a real motor that made 253 waves a second of it."""
+    start = np.array([0.0, 0.01])
+    data = index_intervals(start, start + 0.01, np.array(speed), np.zeros(2))
+    names = ("ripple_voltage", "ripple_cycles", "ripple_phase")
+    problem = SimpleNamespace(unknowns=SimpleNamespace(names=names), intervals=(data,))
+    estimate = SimpleNamespace(problem=problem, theta=np.array([0.5, cycles, 0.0]))
+    model = cast(Model, SimpleNamespace(effects=("torque_ripple",), turns=3.0, estimate=estimate))
+    assert count_waves(model, "torque_ripple") == pytest.approx(3.0 * cycles * seen)
