@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from motor_identification.measurement.initial_speed import estimate_initial_speed
 from motor_identification.recording import Floats, Recording, once
+from motor_identification.sensor.noisy_angle import find_plain_speed
 from motor_model.effect import Extent, ParameterSpec
 from motor_model.effects import INDEX, normalised, specs_of
 from motor_model.parameters import Parameters, neutral
@@ -130,7 +131,7 @@ def map_theta(old: Unknowns, theta: Floats, new: Unknowns, values: Mapping[str, 
 
 @once
 def _reach_of(recording: Recording) -> float:
-    return _reach(recording.speed)
+    return _reach(find_plain_speed(recording))
 
 
 def _reach(speed: Floats) -> float:

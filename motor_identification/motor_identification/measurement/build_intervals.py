@@ -18,7 +18,7 @@ from motor_identification.measurement.sanity_checks import check_counts
 from motor_identification.measurement.standstill import find_standstills_at_edges, find_standstills_at_reversals
 from motor_identification.recording import Floats, Recording
 from motor_identification.sensor.held_counts import drop_held_counts
-from motor_identification.sensor.noisy_angle import find_angle_noise
+from motor_identification.sensor.noisy_angle import average_rows, find_angle_noise
 from motor_identification.sensor.speed_sensor import SpeedSensor, find_speed_sensor
 from motor_model.errors import RecordingError
 from motor_model.sample import Measurement
@@ -107,15 +107,16 @@ def make_count_intervals(recording: Recording, changes: Changes) -> Intervals:
 
 
 def _from_noisy_angles(recording: Recording, noise: float) -> Intervals:
-    """Make intervals from sample to sample, where the angle is known to within `noise` [counts] at each."""
-    slot, time = recording.info.edge_angle, recording.time
-    place = (recording.edge_count - recording.edge_count[0]) * slot
+    """Make intervals from angle to angle, each known to within `noise` [counts], or less where rows are averaged."""
+    slot = recording.info.edge_angle
+    angles = average_rows(recording, noise)
+    place, time = (angles.angle - angles.angle[0]) * slot, angles.time
     speed = np.diff(place) / np.diff(time)
     return index_intervals(
         time[:-1],
         time[1:],
         speed,
-        np.full(len(speed), noise * slot),
+        np.full(len(speed), angles.noise * slot),
         place=np.column_stack([place[:-1], place[1:]]),
         gear=float(recording.info.gear),
     )

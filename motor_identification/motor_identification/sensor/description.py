@@ -5,7 +5,7 @@ from dataclasses import replace
 from math import degrees
 
 from motor_identification.recording import Recording
-from motor_identification.sensor.noisy_angle import find_angle_noise
+from motor_identification.sensor.noisy_angle import average_rows, find_angle_noise
 from motor_identification.sensor.speed_sensor import SpeedSensor, find_speed_sensor
 from motor_identification.sensor.white_noise import LEAST_SAMPLES
 from motor_model.sample import Measurement
@@ -19,6 +19,7 @@ LATTICE = "Every speed{} is a multiple of {} rad/s ({} deg/s): {} counts a turn 
 BY_ROWS = ", by the length of its row beside the usual one,"
 FEW = "There are too few speeds to tell their noise: {} rad/s is assumed."
 ANGLE = "The angle has white noise of {} rad, more than a count: it is taken from sample to sample."
+AVERAGED = "The angle has white noise of {} rad, far more than the motion of a row: it is averaged over {} rows."
 WHITE = "The speeds lie on no lattice of counts: white noise of {} rad/s, as between neighbours, is assumed."
 
 
@@ -70,13 +71,13 @@ def describe_speed_sensors(sensors: Sequence[tuple[SpeedSensor, bool]]) -> str:
 
 def _describe_angles(recordings: Sequence[Recording]) -> str:
     """Say how noisy sampled angles are; empty where they are counts of edges."""
-    noises = [
-        find_angle_noise(one) * one.info.edge_angle
-        for one in recordings
-        if one.info.measurement is Measurement.COUNTS and not one.info.single_channel
-    ]
-    noisy = [noise for noise in noises if noise > 0.0]
-    return ANGLE.format(_span(noisy, "{:.2g}")) if noisy else ""
+    sampled = [one for one in recordings if one.info.measurement is Measurement.COUNTS and not one.info.single_channel]
+    noisy = [(one, noise) for one in sampled if (noise := find_angle_noise(one)) > 0.0]
+    if not noisy:
+        return ""
+    noises = _span((noise * one.info.edge_angle for one, noise in noisy), "{:.2g}")
+    rows = [average_rows(one, noise).rows for one, noise in noisy]
+    return AVERAGED.format(noises, _span(rows, "{}")) if max(rows) > 1 else ANGLE.format(noises)
 
 
 def _span(values: Iterable[float], form: str) -> str:
