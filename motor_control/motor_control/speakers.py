@@ -11,7 +11,7 @@ from rclpy.node import Node
 
 from motor_control.controller.controller import State, meet_other_plant
 from motor_control.controller.state import RESTARTED
-from motor_ros.graph.publishers import publisher_ids, publishers_of
+from motor_ros.graph.publishers import NAMELESS, publisher_ids, publishers_of
 
 TOPIC = "motor/speed"
 
@@ -25,8 +25,9 @@ class Speakers:
         self._ids: frozenset[tuple[int, ...]] = frozenset()  # when samples last began
 
     def name(self, state: State) -> State:
-        """Note their names, where their number has changed."""
-        if (count := self._node.count_publishers(self._resolved)) == self._count:
+        """Note their names, where their number has changed, or one had none yet."""
+        count = self._node.count_publishers(self._resolved)
+        if count == self._count and NAMELESS not in state.speakers:
             return state
         self._count = count
         return replace(state, speakers=f"({', '.join(publishers_of(self._node, TOPIC))})")

@@ -17,14 +17,13 @@ from motor_model.excitation import Profile
 from motor_model.sample import Info, Sample
 from motor_msgs.msg import MotorInfo, MotorSpeed, MotorVoltage
 from motor_ros import qos
-from motor_ros.graph.publishers import count_publishers, publishers_of
+from motor_ros.graph.publishers import NAMELESS, count_publishers, publishers_of
 from motor_ros.messages import info_of, sample_of, voltage_message
 
 SILENCE = 1.0  # [s] without samples after which the plant is gone
 QUEUED = 0.5  # [s] after which no sample from before can come out of the queue any more
 LEAST = 0.02  # of max_voltage: a command that any bridge can follow
 ARRIVAL = 0.5  # [s] for the last command to arrive
-JUST_DISCOVERED = "/_NODE_NAME_UNKNOWN"  # begins the name of a node that has not told it yet
 OURS = "experiment"  # frame_id of the voltages this command sends
 
 
@@ -121,7 +120,7 @@ class Driver(Node):
 
     def _on_voltage(self, message: MotorVoltage) -> None:
         if self._following and message.header.frame_id != OURS and not self.problem:
-            names = {name for name in publishers_of(self, self._voltage.topic_name) if JUST_DISCOVERED not in name}
+            names = {name for name in publishers_of(self, self._voltage.topic_name) if name != NAMELESS}
             others = ", ".join(sorted(names - {self.get_fully_qualified_name()})) or "its name is not known yet"
             self.problem = f"Another node publishes motor/voltage: {others}. End it, and start anew."
 

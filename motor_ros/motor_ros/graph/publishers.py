@@ -6,6 +6,7 @@ from rclpy.node import Node, NodeNameNonExistentError
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 UNKNOWN = "_NODE_NAME_UNKNOWN_"  # the middleware tells of a publisher before it tells of its node
+NAMELESS = "a node that is not known by its name yet"  # to a user
 
 Id = tuple[int, ...]
 
@@ -54,8 +55,11 @@ def kind_of(message: type) -> str:
 
 
 def publishers_of(node: Node, topic: str) -> list[str]:
-    """Name the nodes that publish a topic, in alphabetical order; one with two publishers stands there twice."""
-    return sorted(one.node or f"/{UNKNOWN}" for one in list_publishers(node, topic))
+    """Name the nodes that publish a topic, in alphabetical order; one with two publishers stands there twice.
+
+    `NAMELESS` comes last.
+    """
+    return sorted(one.node or NAMELESS for one in list_publishers(node, topic))
 
 
 def publisher_ids(node: Node, topic: str) -> frozenset[Id]:
