@@ -188,9 +188,13 @@ def holds_nearly_as_well(test: CandidateTest, effect: str, evidence: float) -> b
     They differ while the motor slows down and turns back: what nobody named bends a motion there, too.
     effect, evidence: of the one that was found, beside the model that the test is beside.
     """
-    hold = EFFECT_BY_NAME[test.effect].holds and EFFECT_BY_NAME[effect].holds
     common = EFFECT_ORDER[test.effect] < EFFECT_ORDER[effect]
-    return hold and common and test.evidence > (1.0 - thresholds.HOLDING_LEAD) * evidence
+    return both_hold(test.effect, effect) and common and test.evidence > (1.0 - thresholds.HOLDING_LEAD) * evidence
+
+
+def both_hold(one: str, other: str) -> bool:
+    """Decide whether two effects hold the motor at rest under a voltage."""
+    return EFFECT_BY_NAME[one].holds and EFFECT_BY_NAME[other].holds
 
 
 def is_alike(gain: float, of_all: float, by_recording: Floats) -> bool:

@@ -152,9 +152,8 @@ def make_hold_out(
     swings = [measure_swings(recording) for recording in recordings]
     every = sum(float(part.sum()) for part in swings)
     tried = [TimeBlocks(4, stretch) for stretch in STRETCHES]
-    held = [sum_held_swing(problem, swings, blocks) for blocks in tried]
     least = max(LEAST_SWING, LEAST_SWING_SHARE * every / tried[0].every)
-    swinging = [blocks for blocks, swing in zip(tried, held, strict=True) if swing >= least]
+    swinging = [blocks for blocks in tried if sum_held_swing(problem, swings, blocks) >= least]
     if swinging:
         travelling = (blocks for blocks in swinging if measure_held_travel(problem, blocks) >= LEAST_TRAVEL_SHARE)
         return BlocksOfSame(problem, next(travelling, swinging[0]))

@@ -36,19 +36,19 @@ def eliminate_backward(selection: Selection, reporter: ProgressReporter) -> Sele
     """
     given, beside_more = selection.steps, tuple[SelectionStep, ...]()
     for number, step in enumerate(given):
-        if any(one is step for one in selection.steps):
+        if _is_among(step, selection.steps):
             before = selection
             selection = _report_and_check(before, step, reporter, compared=True)
             if len(selection.steps) < len(before.steps) and selection.outside is None:
-                beside_more = tuple(one for one in selection.steps if _is_none_of(one, given[number + 1 :]))
+                beside_more = tuple(one for one in selection.steps if not _is_among(one, given[number + 1 :]))
     for step in beside_more:
-        if any(one is step for one in selection.steps):
+        if _is_among(step, selection.steps):
             selection = _report_and_check(selection, step, reporter, compared=False)
     return selection
 
 
-def _is_none_of(step: SelectionStep, others: Sequence[SelectionStep]) -> bool:
-    return not any(one is step for one in others)
+def _is_among(step: SelectionStep, steps: Sequence[SelectionStep]) -> bool:
+    return any(one is step for one in steps)
 
 
 def _report_and_check(

@@ -1,7 +1,7 @@
 """Drop what is not determined: an effect of which nothing can be said but that something like it is missing."""
 
 from dataclasses import replace
-from math import inf, isfinite, isnan
+from math import isfinite, isnan
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
@@ -172,7 +172,7 @@ def find_limits_hit(model: Model) -> tuple[str, ...]:
 def _is_physical(name: str) -> bool:
     """Whether a search ends where physics does, such as at a bridge that coasts all the time, and not far before."""
     spec = SPEC_BY_NAME.get(name)
-    return spec is not None and spec.maximum < inf and spec.high > thresholds.NEAR_PHYSICS * spec.maximum
+    return spec is not None and spec.high > thresholds.NEAR_PHYSICS * spec.maximum
 
 
 def is_undetermined(effect: str, not_identifiable: tuple[str, ...]) -> bool:

@@ -9,6 +9,7 @@ from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.effect_test import (
     are_alike,
+    both_hold,
     count_parameters,
     find_rivals,
     holds_nearly_as_well,
@@ -147,8 +148,7 @@ def _start_from_same_size(test: CandidateTest, effect: str, current: Model, hold
 
     The model without both may be far from either: beside a random torque, or where a ripple follows what they do.
     """
-    hold = EFFECT_BY_NAME[test.effect].holds and EFFECT_BY_NAME[effect].holds
-    if not hold or find_loss(test, current) < thresholds.RIVAL_MARGIN:
+    if not both_hold(test.effect, effect) or find_loss(test, current) < thresholds.RIVAL_MARGIN:
         return test
     again = fit_in_place(current, effect, test.effect, hold_out)
     return replace(test, model=again) if again.likelihood > test.model.likelihood else test
