@@ -18,7 +18,7 @@ from motor_identification.measurement.sanity_checks import check_counts
 from motor_identification.measurement.standstill import find_standstills_at_edges, find_standstills_at_reversals
 from motor_identification.recording import Floats, Recording
 from motor_identification.sensor.held_counts import drop_held_counts
-from motor_identification.sensor.noisy_angle import average_rows, find_angle_noise
+from motor_identification.sensor.noisy_angle import Angles, find_noisy_angles
 from motor_identification.sensor.speed_sensor import SpeedSensor, find_speed_sensor
 from motor_model.errors import RecordingError
 from motor_model.sample import Measurement
@@ -39,9 +39,9 @@ def make_intervals(recording: Recording) -> Intervals:
     info = recording.info
     if info.measurement is Measurement.COUNTS and not info.single_channel:  # its directions are read again, row by row
         recording = drop_held_counts(recording)
-        noise = find_angle_noise(recording)
-        if noise > 0.0:
-            return _from_noisy_angles(recording, noise)
+        angles = find_noisy_angles(recording)
+        if angles is not None:
+            return _from_noisy_angles(recording, angles)
     if info.measurement is not Measurement.SPEED:
         check_counts(recording)
     intervals = _READERS[info.measurement](recording)
@@ -106,11 +106,10 @@ def make_count_intervals(recording: Recording, changes: Changes) -> Intervals:
     return append_standstills(moving, find_standstills_at_reversals(recording, changes), slot)
 
 
-def _from_noisy_angles(recording: Recording, noise: float) -> Intervals:
-    """Make intervals from angle to angle, each known to within `noise` [counts], or less where rows are averaged."""
-    slot = recording.info.edge_angle
-    angles = average_rows(recording, noise)
-    place, time = (angles.angle - angles.angle[0]) * slot, angles.time
+def _from_noisy_angles(recording: Recording, angles: Angles) -> Intervals:
+    """Make intervals from angle to angle, each known to within its noise."""
+    slot, time = recording.info.edge_angle, angles.time
+    place = (angles.angle - angles.angle[0]) * slot
     speed = np.diff(place) / np.diff(time)
     return index_intervals(
         time[:-1],

@@ -5,7 +5,7 @@ from dataclasses import replace
 from math import degrees
 
 from motor_identification.recording import Recording
-from motor_identification.sensor.noisy_angle import average_rows, find_angle_noise
+from motor_identification.sensor.noisy_angle import find_noisy_angles
 from motor_identification.sensor.speed_sensor import SpeedSensor, find_speed_sensor
 from motor_identification.sensor.white_noise import LEAST_SAMPLES
 from motor_model.sample import Measurement
@@ -71,12 +71,11 @@ def describe_speed_sensors(sensors: Sequence[tuple[SpeedSensor, bool]]) -> str:
 
 def _describe_angles(recordings: Sequence[Recording]) -> str:
     """Say how noisy sampled angles are; empty where they are counts of edges."""
-    sampled = [one for one in recordings if one.info.measurement is Measurement.COUNTS and not one.info.single_channel]
-    noisy = [(one, noise) for one in sampled if (noise := find_angle_noise(one)) > 0.0]
+    noisy = [(angles, one.info.edge_angle) for one in recordings if (angles := find_noisy_angles(one)) is not None]
     if not noisy:
         return ""
-    noises = _span((noise * one.info.edge_angle for one, noise in noisy), "{:.2g}")
-    rows = [average_rows(one, noise).rows for one, noise in noisy]
+    noises = _span((angles.noise_of_row * slot for angles, slot in noisy), "{:.2g}")
+    rows = [angles.rows for angles, _ in noisy]
     return AVERAGED.format(noises, _span(rows, "{}")) if max(rows) > 1 else ANGLE.format(noises)
 
 

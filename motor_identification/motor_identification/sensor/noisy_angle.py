@@ -9,7 +9,7 @@ from math import sqrt
 
 import numpy as np
 
-from motor_identification.recording import Floats, Recording
+from motor_identification.recording import Floats, Recording, once
 from motor_identification.sensor.white_noise import estimate_white_noise
 from motor_model.sample import Measurement
 
@@ -43,14 +43,24 @@ class Angles:
     angle: Floats  # [counts]
     noise: float  # [counts] standard deviation of each
     rows: int  # that each is the average of
+    noise_of_row: float  # [counts]
+
+
+@once
+def find_noisy_angles(recording: Recording) -> Angles | None:
+    """Find angles that have white noise, averaged where that hides their motion; None where they are counts of edges.
+
+    Sampled counts of two channels may be such angles; edges, and speeds, are none.
+    """
+    if recording.info.measurement is not Measurement.COUNTS or recording.info.single_channel:
+        return None
+    noise = find_angle_noise(recording)
+    return average_rows(recording, noise) if noise > 0.0 else None
 
 
 def find_plain_speed(recording: Recording) -> Floats:
     """Find the speeds [rad/s] of a recording that show its motion: its own, or those between averaged angles."""
-    if recording.info.measurement is not Measurement.COUNTS or recording.info.single_channel:
-        return recording.speed
-    noise = find_angle_noise(recording)
-    angles = average_rows(recording, noise) if noise > 0.0 else None
+    angles = find_noisy_angles(recording)
     if angles is None or angles.rows == 1:
         return recording.speed
     return np.asarray(np.diff(angles.angle) / np.diff(angles.time) * recording.info.edge_angle)
@@ -67,7 +77,7 @@ def average_rows(recording: Recording, noise: float) -> Angles:
     if _measure_told(angle, noise, 1) < LEAST_TOLD:
         told = (count for count in range(2, most + 1) if _measure_told(angle, noise, count) >= WELL_TOLD)
         rows = next(told, most)
-    return Angles(_average(recording.time, rows), _average(angle, rows), noise / sqrt(rows), rows)
+    return Angles(_average(recording.time, rows), _average(angle, rows), noise / sqrt(rows), rows, noise)
 
 
 def _measure_told(angle: Floats, noise: float, rows: int) -> float:
