@@ -53,6 +53,11 @@ class Intervals:
         """[s] length of every interval, shape (I,)."""
         return np.asarray(self.time[self.last] - self.time[self.first])
 
+    @property
+    def travel(self) -> Floats:
+        """[rad] the motor went in every interval, whichever way, shape (I,)."""
+        return np.asarray(np.abs(self.speed) * self.duration)
+
     @cached_property
     def sigma(self) -> Floats:
         """[rad/s] what the blur of both ends leaves in the mean speed, shape (I,)."""

@@ -177,7 +177,7 @@ def sum_held_swing(problem: Problem, swings: Sequence[Floats], blocks: TimeBlock
 def measure_held_travel(problem: Problem, blocks: TimeBlocks) -> float:
     """Measure how much of the travel of all recordings is in some blocks of theirs, 1 for as much as by chance."""
     marks = blocks.mark_each(problem.intervals, problem.sample_period)
-    travels = [np.abs(data.speed) * data.duration for data in problem.intervals]
+    travels = [data.travel for data in problem.intervals]
     held = sum(float(travel[mark].sum()) for travel, mark in zip(travels, marks, strict=True))
     every = sum(float(travel.sum()) for travel in travels)
     return blocks.every * held / every if every > 0.0 else 0.0

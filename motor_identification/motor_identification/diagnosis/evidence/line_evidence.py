@@ -3,8 +3,6 @@
 from collections.abc import Sequence
 from math import inf, tau
 
-import numpy as np
-
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest
@@ -28,7 +26,7 @@ def count_waves(model: Model, effect: str) -> float:
 
 def _find_share_seen(model: Model, cycles: float) -> float:
     """Find the share of the travel in which an interval is at most half a wave of so many cycles a turn."""
-    travels = [data.gear * np.abs(data.speed) * data.duration for data in model.estimate.problem.intervals]
+    travels = [data.gear * data.travel for data in model.estimate.problem.intervals]
     every = sum(float(travel.sum()) for travel in travels)
     seen = sum(float(travel[cycles * travel <= 0.5 * tau].sum()) for travel in travels)
     return seen / every if every > 0.0 else 0.0

@@ -60,7 +60,7 @@ def find_held_intervals(recording: Recording, data: Intervals) -> Bools:
     last = way[end - 1]
     against = np.where(last > 0, _count_between(way < 0, begin, end), _count_between(way > 0, begin, end))
     long = data.duration > LEAST_STANDSTILL * recording.sample_period
-    one_slot = long & (np.abs(data.speed) * data.duration < ABOUT_ONE * data.slot)
+    one_slot = long & (data.travel < ABOUT_ONE * data.slot)
     return np.asarray(((data.speed == 0.0) | one_slot) & (last != 0) & (against == 0))
 
 
