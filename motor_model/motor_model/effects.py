@@ -147,7 +147,7 @@ EFFECTS = (
         "ramps",
         "the torque ripple (torque_ripple)",
         (
-            P("ripple_voltage", "V", 0.0, 0.0, 0.3, VOLTAGE),
+            P("ripple_voltage", "V", 0.0, 0.0, 3.0, VOLTAGE),
             P("ripple_cycles", "1/rev", 1.0, 1.0, 48.0, of_encoder=True),
             P("ripple_phase", "rad", 0.0, -2 * pi, 2 * pi, minimum=-inf, of_recording=True),
         ),

@@ -11,7 +11,7 @@ from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import refine_beside_torque, validate_model
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
-from motor_identification.diagnosis.evidence.line_evidence import count_waves, drop_chance_harmonics
+from motor_identification.diagnosis.evidence.line_evidence import count_waves, drop_chance_harmonics, is_heavy_load
 from motor_identification.diagnosis.fits.effect_fit import fit_with_effect
 from motor_identification.measurement.command_swing import is_sweep
 from motor_identification.recording import Floats
@@ -138,7 +138,7 @@ def _choose_first(findings: Sequence[CandidateTest]) -> CandidateTest:
 
 
 def _is_finding(test: CandidateTest) -> bool:
-    comes_back = count_waves(test.model, test.effect) > thresholds.LEAST_WAVES
+    comes_back = count_waves(test.model, test.effect) > thresholds.LEAST_WAVES or is_heavy_load(test.model, test.effect)
     return is_supported(test) and test.relevant and comes_back and not is_there_from_the_start(test)
 
 

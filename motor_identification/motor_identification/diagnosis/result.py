@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from enum import Enum
+from math import isfinite
 
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.noise.error_model import Disturbance
@@ -41,6 +42,11 @@ class Finding:
     alternatives: tuple[Alternative, ...]  # best first
     ambiguous_with: tuple[str, ...]  # effects that explain as much in this recording
     suggested_experiment: str  # a profile that would tell them apart; empty if none is needed
+
+    @property
+    def has_size(self) -> bool:
+        """Whether the recordings determine any of its parameters."""
+        return not self.parameters or any(isfinite(error) for _, error in self.parameters.values())
 
 
 @dataclass(frozen=True)

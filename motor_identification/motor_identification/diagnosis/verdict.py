@@ -162,6 +162,9 @@ def decide(
         return Verdict.UNDECIDED, unclear
     if not findings and complete and find_ignored(last.held) is not None:
         return Verdict.UNDECIDED, ""  # no experiment tells more before its columns belong together
+    vague = next((finding.effect for finding in findings if not finding.has_size), None)
+    if vague is not None:
+        return Verdict.UNDECIDED, EFFECT_BY_NAME[vague].shown_by
     if hidden and not findings:
         return Verdict.UNDECIDED, EFFECT_BY_NAME[hidden[0]].shown_by  # the table begins with what is most common
     if not last.held.confirms and (findings or not complete):

@@ -122,11 +122,18 @@ def map_theta(old: Unknowns, theta: Floats, new: Unknowns, values: Mapping[str, 
     for i, name in enumerate(new.names):
         if name in old.names:
             moved[new.columns[:, i]] = theta[old.columns[:, old.names.index(name)]]
-        else:
-            moved[new.columns[:, i]] = np.log(values[name]) if new.specs[i].logarithmic else values[name]
     starts = int(new.turning.sum())
     moved[len(moved) - starts :] = theta[len(theta) - starts :]
-    return np.clip(moved, new.low, new.high)
+    return set_values(new, moved, {name: values[name] for name in new.names if name not in old.names})
+
+
+def set_values(unknowns: Unknowns, theta: Floats, values: Mapping[str, Floats]) -> Floats:
+    """Set parameters of θ (D,), for all recordings or per recording, within the box."""
+    moved = theta.copy()
+    for name, value in values.items():
+        i = unknowns.names.index(name)
+        moved[unknowns.columns[:, i]] = np.log(value) if unknowns.specs[i].logarithmic else value
+    return np.clip(moved, unknowns.low, unknowns.high)
 
 
 @once

@@ -1,17 +1,18 @@
 """Add effects periodic in the angle to a fit of all others, on measured angles, from where their spectrum points."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from motor_identification.estimation.direction_correction import correct_directions
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds, improves_fit
-from motor_identification.estimation.parameter_space import map_theta
+from motor_identification.estimation.parameter_space import map_theta, set_values
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.measurement.measured_angle import Track
-from motor_identification.periodic.ripple_spectrum import find_ripples, fit_ripple
+from motor_identification.periodic.angle_load import find_angle_load
+from motor_identification.periodic.ripple_spectrum import USUAL_RIPPLE, find_ripples, fit_ripple
 from motor_identification.periodic.run_alignment import Aligned, align_runs
 from motor_identification.periodic.simulated_angle_fit import fit_on_simulated_angle
 from motor_identification.recording import Floats, Integers
@@ -26,10 +27,11 @@ Tracks = tuple[Track, ...]
 
 @dataclass(frozen=True)
 class Start:
-    """Where a periodic effect is fitted from: measured angles, and its values in every recording."""
+    """Where a periodic effect is fitted from: measured angles, its values in every recording, a motor if need be."""
 
     tracks: Tracks
     values: Mapping[str, Floats]
+    motor: Mapping[str, Floats] = field(default_factory=dict)  # where it is another than without the effect
 
     @property
     def cycles(self) -> float:
@@ -84,7 +86,7 @@ def _begin(bare: Estimate, effects: tuple[str, ...], start: Start) -> Estimate:
     """An estimate with more effects, not fitted yet, on measured angles."""
     trial = replace(bare.problem.with_effects(effects), tracks=start.tracks)
     theta = map_theta(bare.problem.unknowns, bare.theta, trial.unknowns, start.values)
-    return Estimate(trial, theta, bare.simulations)
+    return Estimate(trial, set_values(trial.unknowns, theta, start.motor), bare.simulations)
 
 
 def _fit_freely(bare: Estimate, begin: Estimate, held: Estimate, effect: str, start: Start) -> list[Estimate]:
@@ -167,12 +169,20 @@ def align_wave(sine: Floats, cosine: Floats, left: Floats, run: Integers, data: 
 
 
 def _start_ripple(bare: Estimate, tracks: Tracks, least: float) -> Start | None:
-    """Find the best line of the spectrum, if there is one."""
+    """Find a load that is larger than ripples are, or the best line of the spectrum, if there is one."""
+    load = find_angle_load(bare.problem, tracks, USUAL_RIPPLE * bare.problem.unknowns.extent.voltage)
+    if load is not None:
+        motor = {"kv": np.array(load.kv), "ka": np.array(load.ka)}
+        return Start(tracks, _list_values(load.amplitude, 1.0, load.phases), motor)
     lines = find_ripples(bare, tracks, least)
     if not lines:
         return None
-    values = {"ripple_voltage": np.array(lines[0].amplitude), "ripple_cycles": np.array(lines[0].cycles)}
-    return Start(lines[0].tracks, {**values, "ripple_phase": np.array(lines[0].phases)})
+    return Start(lines[0].tracks, _list_values(lines[0].amplitude, lines[0].cycles, lines[0].phases))
+
+
+def _list_values(amplitude: float, cycles: float, phases: tuple[float, ...]) -> dict[str, Floats]:
+    """List the values of a ripple [V], [1/rev] and, in every recording, [rad]."""
+    return {"ripple_voltage": np.array(amplitude), "ripple_cycles": np.array(cycles), "ripple_phase": np.array(phases)}
 
 
 _STARTS = {"encoder_eccentricity": _start_eccentricity, "torque_ripple": _start_ripple}

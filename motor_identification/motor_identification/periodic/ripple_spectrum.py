@@ -31,6 +31,7 @@ KNOT_DISTANCE, KNOT_CYCLES, KNOT_SHARE = 16, 4.0, 0.02
 KNOT_TOLERANCE = 0.01  # that a disc's table is solved within there. Measured: responses' squares are 0.2 % off
 LEAST_TURNS = 0.01  # of travel: less is no turning
 SPILLED = 2.0  # times the sum of a block's white squares: no more of it is explained, as whitening mixes neighbours
+USUAL_RIPPLE = 0.3  # of the largest voltage: more goes with the angle where a load hangs or is out of balance only
 # Numbers of cycles, from the most on, of which the finest that could be seen is; and what is tried beside each.
 FINEST_TRIED, FINEST_NEAR = 24, np.array([1.0, 0.97, 0.93])
 # Cycles a turn from which on a ripple comes through a gear, and how large it is there at most, as a share of the
@@ -61,7 +62,7 @@ def find_ripples(estimate: Estimate, tracks: Sequence[Track], least: float = 0.0
     """
     problem, runs = estimate.problem, whiten_runs(estimate, tracks)
     low, high = SPEC_BY_NAME["ripple_cycles"].box(problem.unknowns.extent)
-    most = SPEC_BY_NAME["ripple_voltage"].box(problem.unknowns.extent)[1]
+    most = USUAL_RIPPLE * problem.unknowns.extent.voltage
     turns = max(np.ptp(np.concatenate([run.course.start, run.course.end])) for run in runs) / tau
     high = find_finest(runs, low, high, most)
     width = measure_line(turns) / POINTS_PER_LINE

@@ -1,5 +1,7 @@
 """A diagnosis in words: what was missing, what that explains, what is left, and what to do next."""
 
+from collections.abc import Sequence
+
 from motor_identification.diagnosis.candidate_model import find_lasting_interval
 from motor_identification.diagnosis.evidence.command_evidence import Ignored, find_ignored
 from motor_identification.diagnosis.result import Diagnosis, Finding, Verdict
@@ -86,7 +88,7 @@ def _describe_gap(diagnosis: Diagnosis) -> str:
     return f"the {_name_gap(diagnosis)} is {diagnosis.gap_after:.3g} rad/s, {_compare_with_floor(diagnosis)}"
 
 
-def _describe_found(findings: tuple[Finding, ...], sure: bool = True) -> str:
+def _describe_found(findings: Sequence[Finding], sure: bool = True) -> str:
     each = [f"{effect_name(one.effect)} ({format_parameters(one)})" for one in findings]
     were = " was missing" if len(each) == 1 else " were missing"
     return capitalize(join_names(each) + (were if sure else " may be missing"))
@@ -156,10 +158,12 @@ def _describe_nearest(diagnosis: Diagnosis) -> str:
 
 
 def _describe_findings(diagnosis: Diagnosis) -> str:
-    """Say what is missing, and what this recording cannot distinguish."""
-    clear = tuple(one for one in diagnosis.findings if not one.ambiguous_with)
+    """Say what is missing, what of it has no determined size, and what this recording cannot distinguish."""
+    clear = [one for one in diagnosis.findings if not one.ambiguous_with]
+    sized, vague = ([one for one in clear if one.has_size is sized] for sized in (True, False))
     sure = diagnosis.after.confirms
-    parts = [f"{_describe_found(clear, sure)}."] if clear else []
+    parts = [f"{_describe_found(sized, sure)}."] if sized else []
+    parts += [f"{_describe_found(vague, sure=False)}; this recording does not tell how much."] if vague else []
     for one in diagnosis.findings:
         if one.ambiguous_with:
             names = join_names([effect_name(name) for name in (one.effect, *one.ambiguous_with)], "or")

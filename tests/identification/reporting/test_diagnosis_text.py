@@ -66,6 +66,20 @@ def test_what_has_no_size_is_told_without_a_contradiction(variants: dict[Verdict
         assert "does not tell" not in summarize_diagnosis(variants[verdict])
 
 
+def test_a_finding_of_no_determined_size_may_be_missing_beside_one_that_is(variants: dict[Verdict, Diagnosis]) -> None:
+    one = variants[Verdict.EXPLAINED]
+    (found,) = one.findings
+    vague = replace(found, effect="dead_zone", parameters={"dead_zone_voltage": (0.1, float("nan"))})
+    said = summarize_diagnosis(replace(one, verdict=Verdict.UNDECIDED, findings=(found, vague)))
+    assert re.match(
+        r"Coulomb friction \(ks = [^)]*\) was missing\. "
+        r"Dead zone \(dead_zone_voltage = 0\.1 V \(not identifiable\)\) may be missing; "
+        r"this recording does not tell how much\. The",
+        said,
+    )
+    assert "tell how much" not in summarize_diagnosis(replace(one, verdict=Verdict.UNDECIDED))
+
+
 def test_where_nothing_was_held_out_the_gap_is_no_validation(variants: dict[Verdict, Diagnosis]) -> None:
     for verdict, one in variants.items():
         said = summarize_diagnosis(replace(one, after=replace(one.after, seen=True)))

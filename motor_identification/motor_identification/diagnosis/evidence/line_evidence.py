@@ -7,6 +7,7 @@ from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.noise.slots.first_harmonic import bound_chance_eccentricity
+from motor_identification.periodic.ripple_spectrum import USUAL_RIPPLE
 from motor_model.effects import EFFECT_BY_NAME
 
 
@@ -39,11 +40,31 @@ def adds_only_lines(model: Model, start: Model) -> bool:
     return bool(added) and periodic and all(count_waves(model, name) > thresholds.MANY_WAVES for name in added)
 
 
+def is_heavy_load(model: Model, effect: str) -> bool:
+    """Whether an effect is a load that goes once a turn and is larger than ripples are, such as an arm that hangs down.
+
+    It tells of itself by how it accelerates the motor, however small a part of a turn that swings.
+    """
+    return _is_too_large_a_ripple(model, effect) and _goes_once_a_turn(model, effect)
+
+
+def is_no_ripple(model: Model, effect: str) -> bool:
+    """Whether an effect is larger than ripples are, and none that goes once a turn."""
+    return _is_too_large_a_ripple(model, effect) and not _goes_once_a_turn(model, effect)
+
+
+def _is_too_large_a_ripple(model: Model, effect: str) -> bool:
+    if _find_cycles(model, effect) is None:
+        return False
+    size = _fitted(model, EFFECT_BY_NAME[effect].parameters[0].name)
+    return size is not None and size > USUAL_RIPPLE * model.estimate.problem.unknowns.extent.voltage
+
+
 def drop_chance_harmonics(tests: Sequence[CandidateTest]) -> list[CandidateTest]:
     """Drop tests of the first harmonic that random slots have by chance: of the disc, and of a torque less likely."""
     chance = [test for test in tests if EFFECT_BY_NAME[test.effect].on_disc and _is_by_random_slots(test)]
     most = max((test.evidence for test in chance), default=-inf)
-    chance += [test for test in tests if test.evidence < most and _is_once_a_turn(test)]
+    chance += [test for test in tests if test.evidence < most and _goes_once_a_turn(test.model, test.effect)]
     return [test for test in tests if not any(test is one for one in chance)]
 
 
@@ -54,9 +75,9 @@ def _is_by_random_slots(test: CandidateTest) -> bool:
     return size is not None and size <= bound_chance_eccentricity(slot, share)
 
 
-def _is_once_a_turn(test: CandidateTest) -> bool:
+def _goes_once_a_turn(model: Model, effect: str) -> bool:
     """Whether an effect has cycles in a turn of the encoder's shaft, and they are one."""
-    cycles = _find_cycles(test.model, test.effect)
+    cycles = _find_cycles(model, effect)
     return cycles is not None and abs(cycles - 1.0) < thresholds.ONCE_A_TURN
 
 

@@ -7,6 +7,7 @@ from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import likelihood_threshold, predicts_far_worse
 from motor_identification.diagnosis.effect_test import sort_by_table, try_effects
+from motor_identification.diagnosis.evidence.line_evidence import is_no_ripple
 from motor_identification.diagnosis.selection.backward_elimination import drop_step, eliminate_backward
 from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
 from motor_identification.progress import ProgressReporter
@@ -109,13 +110,16 @@ def find_undetermined(model: Model) -> tuple[str, ...]:
 
     Size and time constant of one effect may each be unsure, because the other is, where both together are not. A
     parameter that belongs to a recording, such as an instant, says nothing of the motor; but one that may be anywhere
-    is a slow torque's. A size that ended at a limit of the search is none.
+    is a slow torque's. A size that ended at a limit of the search is none, nor that of a ripple that is no load.
     """
     unknown, limits = (_find_unknown(model), find_limits_hit(model)) if model.effects else ((), ())
     return tuple(
         name
         for name in model.effects
-        if is_undetermined(name, unknown) or EFFECT_BY_NAME[name].parameters[0].name in limits or is_chance(name, model)
+        if is_undetermined(name, unknown)
+        or EFFECT_BY_NAME[name].parameters[0].name in limits
+        or is_no_ripple(model, name)
+        or is_chance(name, model)
     )
 
 

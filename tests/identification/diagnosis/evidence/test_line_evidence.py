@@ -12,10 +12,16 @@ from stub_models import stub_model, stub_test
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest
-from motor_identification.diagnosis.evidence.line_evidence import count_waves, drop_chance_harmonics
+from motor_identification.diagnosis.evidence.line_evidence import (
+    count_waves,
+    drop_chance_harmonics,
+    is_heavy_load,
+    is_no_ripple,
+)
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.measurement.intervals import index_intervals
 from motor_identification.noise.likelihood import Noise
+from motor_identification.periodic.ripple_spectrum import USUAL_RIPPLE
 
 
 def line(effect: str, evidence: float, **values: float) -> CandidateTest:
@@ -71,3 +77,24 @@ def test_waves_that_are_shorter_than_two_intervals_are_not_seen(
     estimate = SimpleNamespace(problem=problem, theta=np.array([0.5, cycles, 0.0]))
     model = cast(Model, SimpleNamespace(effects=("torque_ripple",), turns=3.0, estimate=estimate))
     assert count_waves(model, "torque_ripple") == pytest.approx(3.0 * cycles * seen)
+
+
+@pytest.mark.parametrize(
+    ("size", "cycles", "heavy", "no_ripple"),
+    [
+        (0.99 * USUAL_RIPPLE, 1.0, False, False),
+        (1.01 * USUAL_RIPPLE, 1.0, True, False),
+        (1.01 * USUAL_RIPPLE, 0.99 * thresholds.ONCE_A_TURN + 1.0, True, False),
+        (1.01 * USUAL_RIPPLE, 1.01 * thresholds.ONCE_A_TURN + 1.0, False, True),
+        (0.99 * USUAL_RIPPLE, 7.0, False, False),
+    ],
+)
+def test_what_is_larger_than_ripples_are_is_a_load_once_a_turn_or_nothing(
+    size: float, cycles: float, heavy: bool, no_ripple: bool
+) -> None:
+    values = {"ripple_voltage": 12.0 * size, "ripple_cycles": cycles, "ripple_phase": 0.0}
+    unknowns = SimpleNamespace(names=tuple(values), extent=SimpleNamespace(voltage=12.0))
+    estimate = SimpleNamespace(problem=SimpleNamespace(unknowns=unknowns), theta=np.array(list(values.values())))
+    model = replace(stub_model(5.0), estimate=cast(Estimate, estimate))
+    assert is_heavy_load(model, "torque_ripple") is heavy and is_no_ripple(model, "torque_ripple") is no_ripple
+    assert not is_heavy_load(model, "coulomb_friction") and not is_no_ripple(model, "coulomb_friction")
