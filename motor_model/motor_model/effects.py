@@ -43,7 +43,7 @@ EFFECTS = (
         "ramps",
         "the breakaway level (static_friction)",
         (
-            P("breakaway_voltage", "V", 0.0, 0.0, 0.8, VOLTAGE, starts=(0.1, 0.03), at_least="ks"),
+            P("breakaway_voltage", "V", 0.0, 0.0, 1.0, VOLTAGE, starts=(0.1, 0.03), at_least="ks"),
             P("stribeck_speed", "rad/s", 1.0, 0.002, 0.3, SPEED, True, minimum=1e-6, starts=(0.01, 0.035, 0.1)),
         ),
         implies="coulomb_friction",

@@ -86,3 +86,15 @@ def test_a_drag_leaves_a_motor_some_of_its_voltage(share: float, searched: bool)
     """At the largest speed, by the largest voltage: a coasting bridge bends the static curve as much more would."""
     low, high = EFFECT_BY_NAME["quadratic_drag"].parameters[0].box(Extent(12.0, 130.0, 20.0))
     assert (low <= share * 12.0 / 130.0**2 <= high) == searched
+
+
+@pytest.mark.parametrize(
+    ("effect", "most"),
+    [
+        ("static_friction", 12.0),  # a motor that ever started did so below the largest voltage
+        ("torque_ripple", 36.0),  # an arm that the motor only swings
+    ],
+)
+def test_what_holds_a_motor_is_searched_up_to_what_it_may_be(effect: str, most: float) -> None:
+    spec = EFFECT_BY_NAME[effect].parameters[0]
+    assert spec.box(Extent(12.0, 130.0, 20.0)) == pytest.approx((0.0, most))

@@ -1,5 +1,6 @@
 """Hold the result of a diagnosis: which effects were missing, what each of them explains, and what is left."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 from math import isfinite
@@ -9,6 +10,7 @@ from motor_identification.noise.error_model import Disturbance
 from motor_identification.recording import Floats
 from motor_identification.uncertainty.result import Fit
 from motor_identification.validation.held_out import HeldOut
+from motor_model.effects import EFFECT_BY_NAME
 
 
 class Verdict(str, Enum):
@@ -47,6 +49,12 @@ class Finding:
     def has_size(self) -> bool:
         """Whether the recordings determine any of its parameters."""
         return not self.parameters or any(isfinite(error) for _, error in self.parameters.values())
+
+
+def list_vague(findings: Sequence[Finding]) -> list[Finding]:
+    """List findings of which no parameter is determined; not what another one that is cannot be without."""
+    needed = {EFFECT_BY_NAME[one.effect].implies for one in findings if one.has_size}
+    return [one for one in findings if not one.has_size and one.effect not in needed]
 
 
 @dataclass(frozen=True)

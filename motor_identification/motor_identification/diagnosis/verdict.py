@@ -10,7 +10,7 @@ from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.detectability import find_undetectable
 from motor_identification.diagnosis.evidence.command_evidence import find_ignored
 from motor_identification.diagnosis.evidence.missed_edges import count_missed_edges
-from motor_identification.diagnosis.result import Alternative, Diagnosis, Finding, Nearest, Verdict
+from motor_identification.diagnosis.result import Alternative, Diagnosis, Finding, Nearest, Verdict, list_vague
 from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
 from motor_identification.discrepancy.region_text import describe_error
 from motor_identification.estimation.request import SearchReport
@@ -162,9 +162,8 @@ def decide(
         return Verdict.UNDECIDED, unclear
     if not findings and complete and find_ignored(last.held) is not None:
         return Verdict.UNDECIDED, ""  # no experiment tells more before its columns belong together
-    vague = next((finding.effect for finding in findings if not finding.has_size), None)
-    if vague is not None:
-        return Verdict.UNDECIDED, EFFECT_BY_NAME[vague].shown_by
+    if vague := list_vague(findings):
+        return Verdict.UNDECIDED, EFFECT_BY_NAME[vague[0].effect].shown_by
     if hidden and not findings:
         return Verdict.UNDECIDED, EFFECT_BY_NAME[hidden[0]].shown_by  # the table begins with what is most common
     if not last.held.confirms and (findings or not complete):

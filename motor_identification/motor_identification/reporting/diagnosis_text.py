@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from motor_identification.diagnosis.candidate_model import find_lasting_interval
 from motor_identification.diagnosis.evidence.command_evidence import Ignored, find_ignored
-from motor_identification.diagnosis.result import Diagnosis, Finding, Verdict
+from motor_identification.diagnosis.result import Diagnosis, Finding, Verdict, list_vague
 from motor_identification.diagnosis.thresholds import EXPLAINED_GAP
 from motor_identification.discrepancy.missing_torque import describe_torque, estimate_missing_torque
 from motor_identification.discrepancy.region_text import describe_error
@@ -160,7 +160,8 @@ def _describe_nearest(diagnosis: Diagnosis) -> str:
 def _describe_findings(diagnosis: Diagnosis) -> str:
     """Say what is missing, what of it has no determined size, and what this recording cannot distinguish."""
     clear = [one for one in diagnosis.findings if not one.ambiguous_with]
-    sized, vague = ([one for one in clear if one.has_size is sized] for sized in (True, False))
+    vague = list_vague(clear)
+    sized = [one for one in clear if one not in vague]
     sure = diagnosis.after.confirms
     parts = [f"{_describe_found(sized, sure)}."] if sized else []
     parts += [f"{_describe_found(vague, sure=False)}; this recording does not tell how much."] if vague else []

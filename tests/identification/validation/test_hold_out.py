@@ -18,6 +18,8 @@ from motor_identification.validation.hold_out import (
     LEAST_SWING,
     LEAST_SWING_SHARE,
     LEAST_TRAVEL_SHARE,
+    LEAST_WAY,
+    LEAST_WAY_SHARE,
     STRETCHES,
     BlocksOfSame,
     HoldOut,
@@ -164,11 +166,36 @@ def test_blocks_that_are_in_step_with_a_train_of_pulses_are_stretched() -> None:
     swings = [measure_swings(recording) for recording in pulses]
     every = sum(map(np.sum, swings))
     assert sum_held_swing(hold_out.problem, swings, in_step) > LEAST_SWING_SHARE * every / 4
-    assert measure_held_travel(hold_out.problem, in_step) < 0.5 * LEAST_TRAVEL_SHARE
-    assert LEAST_TRAVEL_SHARE < measure_held_travel(hold_out.problem, hold_out.scored_blocks) < 1.5
+    assert measure_held_travel(hold_out.problem, in_step).share < 0.5 * LEAST_TRAVEL_SHARE
+    assert LEAST_TRAVEL_SHARE < measure_held_travel(hold_out.problem, hold_out.scored_blocks).share < 1.5
     assert hold_out.scored_blocks.stretch == STRETCHES[1]
     random = make_hold_out([TRAINING], [])  # of which the usual blocks show as much as others
-    assert random.scored_blocks.stretch == 1.0 and measure_held_travel(random.problem, in_step) > LEAST_TRAVEL_SHARE
+    assert random.scored_blocks.stretch == 1.0
+    held = measure_held_travel(random.problem, in_step)
+    assert held.share > LEAST_TRAVEL_SHARE and held.share_one_way > LEAST_WAY_SHARE
+
+
+def test_blocks_that_show_one_way_only_are_stretched() -> None:
+    """Every fourth block of this one is the way back: as much travel as by chance, and none of it forwards."""
+    there_and_back, in_step = [drive(*[8.0, 8.0, 0.0, -8.0] * 12)], TimeBlocks(4)
+    hold_out = make_hold_out(there_and_back, [])
+    assert hold_out.scored_blocks.stretch > 1.0
+    before, held = (measure_held_travel(hold_out.problem, blocks) for blocks in (in_step, hold_out.scored_blocks))
+    assert before.share > LEAST_TRAVEL_SHARE and before.share_one_way == 0.0
+    assert held.share > LEAST_TRAVEL_SHARE and held.share_one_way > LEAST_WAY_SHARE
+
+
+@pytest.mark.parametrize(("share", "seen"), [(0.9 * LEAST_WAY, False), (1.1 * LEAST_WAY, True)])
+def test_a_little_motion_back_need_not_be_held_out(share: float, seen: bool) -> None:
+    """Such as the swing at the end of a stop; here all that goes back is in blocks that are not held out."""
+    problem, blocks = make_hold_out([STEP] * 11, []).problem, TimeBlocks(4)
+    data = problem.intervals[0]
+    kept = ~blocks.mark(data, problem.sample_period, 0)
+    back = kept & (np.cumsum(np.where(kept, data.travel, 0.0)) <= share * data.travel.sum())
+    turned = replace(data, speed=np.where(back, -1.0, 1.0) * np.abs(data.speed))
+    one = replace(problem, recordings=problem.recordings[:1], intervals=(turned,))
+    held = measure_held_travel(one, blocks)
+    assert held.share_one_way == 0.0 if seen else held.share_one_way >= held.share > LEAST_TRAVEL_SHARE
 
 
 def test_where_nothing_is_held_out_all_is_fitted_and_counts() -> None:

@@ -276,6 +276,21 @@ def test_what_the_gap_shows_is_needed_though_its_errors_are_wide(
     assert not is_needed(found_step(without, at_sea, effect, rivals), at_sea, without)  # as anything is there
 
 
+@pytest.mark.parametrize(
+    ("explained", "chance", "needed"), [(True, True, False), (True, False, True), (False, True, True)]
+)
+def test_a_size_by_chance_is_not_needed_where_all_is_explained_without_it(
+    monkeypatch: pytest.MonkeyPatch, explained: bool, chance: bool, needed: bool
+) -> None:
+    """A load step of 0.050 ± 0.049 V was named beside the static friction of a real motor that starts anew."""
+    monkeypatch.setattr(determination, "find_limits_hit", lambda model: ())
+    monkeypatch.setattr(determination, "has_vague_instant", lambda effect, model: False)
+    monkeypatch.setattr(determination, "is_chance_size", lambda effect, model: chance)
+    gap = 0.999 * thresholds.EXPLAINED_GAP if explained else 1.001 * thresholds.EXPLAINED_GAP
+    model, without = stub_model(gap / (1.001 * thresholds.WORSE_GAP), 0.0), stub_model(gap, 0.0)
+    assert is_needed(found_step(without, model, "load_step"), model, without) is needed
+
+
 def test_an_exchange_of_rivals_in_a_circle_ends(monkeypatch: pytest.MonkeyPatch) -> None:
     """Neither of two that do each other's work is determined, and each gives way to the other."""
     models = {name: with_effects(stub_model(2.0, 0.0), name) for name in ("coulomb_friction", "dead_zone")}
