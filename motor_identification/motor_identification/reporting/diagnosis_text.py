@@ -198,13 +198,14 @@ def _undecided(diagnosis: Diagnosis) -> str:
         parts = [_describe_no_finding(diagnosis)]
     if diagnosis.model.on_bound.get("kv", False):
         parts.append(NO_MOTOR)
+    parts.append(_describe_disturbance(diagnosis))
     if diagnosis.time_limit:
         parts.insert(0, OUT_OF_TIME.format(diagnosis.time_limit))
     if diagnosis.undetermined:
         parts.append(_describe_undetermined(diagnosis))
     if diagnosis.undetectable and not any(one.ambiguous_with for one in diagnosis.findings):
         parts.append(_describe_untestable(diagnosis))
-    return " ".join(parts)
+    return " ".join(part for part in parts if part)
 
 
 def _describe_no_finding(diagnosis: Diagnosis) -> str:
@@ -224,6 +225,8 @@ def _describe_no_finding(diagnosis: Diagnosis) -> str:
     if diagnosis.nearest is not None:
         text = f"Something may be missing that this recording does not tell from chance: {_describe_gap(diagnosis)}."
         return f"{text} {_describe_nearest(diagnosis)}"
+    if diagnosis.disturbance is not None and diagnosis.gap_after > EXPLAINED_GAP * diagnosis.sensor_floor:
+        return f"Nothing can be told apart from a random torque in this recording: {_describe_gap(diagnosis)}."
     return f"Nothing is missing that this recording could show: {_describe_gap(diagnosis)}."
 
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 import pytest
 
 from motor_identification.diagnosis.result import Diagnosis, Nearest, Verdict
+from motor_identification.diagnosis.thresholds import EXPLAINED_GAP
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.noise.error_model import Disturbance
 from motor_identification.reporting.diagnosis_text import SEEN, summarize_diagnosis
@@ -107,10 +108,28 @@ def test_what_one_response_shows_may_be_missing(variants: dict[Verdict, Diagnosi
 
 def test_a_random_torque_is_said_with_its_strength(variants: dict[Verdict, Diagnosis]) -> None:
     torque = Disturbance(0.1503, 0.0042, 0.0512, 0.0031)
-    for verdict in (Verdict.EXPLAINED, Verdict.NOTHING_MISSING):
+    for verdict in (Verdict.EXPLAINED, Verdict.NOTHING_MISSING, Verdict.UNDECIDED):
         said = summarize_diagnosis(replace(variants[verdict], disturbance=torque))
         assert "The rest is random: a torque of 0.1503 ± 0.0042 V RMS, correlated over 0.0512 ± 0.0031 s." in said
         assert "random" not in summarize_diagnosis(replace(variants[verdict], disturbance=None))
+
+
+@pytest.mark.parametrize(("times", "told"), [(0.99, True), (1.01, False)])
+def test_nothing_is_missing_is_not_said_where_a_random_torque_may_hide_it(
+    variants: dict[Verdict, Diagnosis], times: float, told: bool
+) -> None:
+    """Where it leaves more than the sensor does: a tenth of the voltage was learnt of a real coasting bridge."""
+    one = replace(variants[Verdict.NOTHING_MISSING], verdict=Verdict.UNDECIDED, undetectable=("backlash",))
+    torque = Disturbance(1.274, 0.07, 0.175, 0.014)
+    said = summarize_diagnosis(
+        replace(one, disturbance=torque, gap_after=times * EXPLAINED_GAP * one.sensor_floor, noise_floor=one.gap_after)
+    )
+    headline = (
+        "Nothing is missing that this recording could show:"
+        if told
+        else "Nothing can be told apart from a random torque"
+    )
+    assert said.startswith(headline) and "a torque of 1.274 ± 0.07 V RMS" in said
 
 
 def test_the_variable_that_predicts_the_rest_is_named(variants: dict[Verdict, Diagnosis]) -> None:
