@@ -5,7 +5,9 @@ measured and missing, and edges that end without having come later and later, as
 does it show direction.
 
 A finding is a sentence for people. A stop is one that lasts for `stall_time` at a voltage from STRONG on: then the
-plant switches the motor off by itself, whoever sends the voltage. Simulated and real motor share this.
+plant switches the motor off by itself, whoever sends the voltage. Simulated and real motor share this. So does any
+voltage where the supply is measured and off, and no edge comes: whoever switches it on again, on most benches by the
+switch that stops the motor, does not expect it to go on by itself.
 
 What a voltage that is never strong for long does to a motor that does not turn is in `heating.py`; what two channels
 show of one that turns the wrong way without becoming slower, in `against_voltage.py`.
@@ -60,6 +62,7 @@ class MotionCheck:
     strong_since: int = 0  # [ns] driven strongly in this direction since
     heating: Heating = Heating()
     against: AgainstVoltage = AgainstVoltage()
+    unsupplied: int = 0  # [ns] a voltage is wanted, without a supply and without an edge, since
     even: bool = False  # the latest edge came hardly later than the one before had
 
     def see(self, sample: Sample) -> "MotionCheck":
@@ -72,6 +75,7 @@ class MotionCheck:
         before = self.latest
         edge = before is not None and sample.edge_count != before.edge_count
         moved = edge or before is None
+        waits = self._is_off(sample) and share != 0.0 and not moved
         dt = max(now - before.sample_time, 0) * 1e-9 if before is not None else 0.0  # [s]
         return replace(
             self,
@@ -83,6 +87,7 @@ class MotionCheck:
             strong_since=now if anew else self.strong_since,
             heating=self.heating.see(share, dt, edge, self.stall_time),
             against=self.against.see(sample, before, share, STRONG if strong else 0.0, 0 if anew else strong),
+            unsupplied=self.unsupplied if waits else now,
             even=self._is_even(sample) if moved else self.even,
         )
 
@@ -105,6 +110,8 @@ class MotionCheck:
         strong_since = self.strong_since if self.strong else None
         if not self.single_channel and self.against.lasts(sample, strong_since, self.stall_time):
             return AGAINST
+        if sample.sample_time - self.unsupplied >= most:
+            return NO_SUPPLY.format(supply=sample.supply_voltage)
         if excess := self.heating.excess(STRONG, self.stall_time):
             return HEATED.format(voltage=excess[0] * self.max_voltage, time=excess[1])
         if strong_since is None:
@@ -116,6 +123,10 @@ class MotionCheck:
         """The direction of all the voltage that a measured supply gives; 0: it is less, off, or not measured."""
         supply = sample.supply_voltage
         return _sign(sample.voltage / supply, ALL) if supply >= find_least_supply(self.max_voltage) else 0
+
+    def _is_off(self, sample: Sample) -> bool:
+        """Whether the supply is measured and off."""
+        return sample.supply_voltage < find_least_supply(self.max_voltage)  # False of nan
 
     def _is_even(self, sample: Sample) -> bool:
         """Whether the period of this edge is hardly longer than that of the one before."""

@@ -9,6 +9,9 @@ from motion_samples import checked, sample
 from motor_model.sample import Sample
 
 
+SWITCH_ON = "switch it on, and join its ground to the board's"
+
+
 def seen(single_channel: bool, *samples: Sample) -> str:
     return checked(single_channel, *samples).finding
 
@@ -66,11 +69,30 @@ def test_all_that_a_low_supply_gives_is_enough_for_a_stop(voltage: float, supply
     assert bool(checked(True, *blocked).stop) == stops
 
 
-@pytest.mark.parametrize(("supply", "stops"), [(0.48, True), (0.31, True), (0.29, False)])
-def test_and_of_a_motor_of_little_voltage_all_that_its_little_supply_gives(supply: float, stops: bool) -> None:
-    """Less than a quarter of 1.2 V is a supply that is off, and the voltage that is told is one that nobody has."""
+@pytest.mark.parametrize(("supply", "words"), [(0.48, "no edge ever"), (0.31, "no edge ever"), (0.29, "its supply")])
+def test_and_of_a_motor_of_little_voltage_all_that_its_little_supply_gives(supply: float, words: str) -> None:
+    """Less than a quarter of 1.2 V is a supply that is off."""
     blocked = [sample(0.1 * k, 0, 0.0, supply, supply) for k in range(7)]
-    assert bool(checked(True, *blocked, max_voltage=1.2).stop) == stops
+    assert words in checked(True, *blocked, max_voltage=1.2).stop
+
+
+@pytest.mark.parametrize("voltage", [0.1, -2.8])
+@pytest.mark.parametrize(
+    ("supply", "after", "stops"), [(2.9, 0.41, True), (2.9, 0.39, False), (3.1, 9.0, False), (nan, 9.0, False)]
+)
+def test_a_supply_that_is_off_for_long_stops_the_motor_under_any_voltage(
+    voltage: float, supply: float, after: float, stops: bool
+) -> None:
+    """It was switched off and on, and the motor went on by itself."""
+    coasting = [sample(0.1 * k, k, 10.0, voltage, supply) for k in range(8)]
+    stopped = checked(True, *coasting, sample(0.7 + after, 7, 0.0, voltage, supply)).stop
+    assert stopped == ("the motor does not turn: its supply is at 2.9 V; " + SWITCH_ON if stops else "")
+
+
+def test_where_no_voltage_is_wanted_a_supply_may_be_off() -> None:
+    assert checked(True, *(sample(0.1 * k, 0, 0.0, 0.0, 0.0) for k in range(20))).stop == ""
+    to_and_fro = [sample(0.1 * k, 0, 0.0, 0.3 * (-1) ** k, 0.0) for k in range(7)]
+    assert "its supply is at 0.0 V" in checked(True, *to_and_fro).stop
 
 
 @pytest.mark.parametrize("limit", [1.2, 12.0, 48.0])
