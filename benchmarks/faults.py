@@ -13,6 +13,7 @@ from pathlib import Path
 
 from faults_board import BOARD_FAULTS, run_on_board
 from faults_encoders import encoders
+from faults_files import files
 from faults_kill import HEAD as KILLED_HEAD
 from faults_kill import killed
 from faults_limits import limits
@@ -123,6 +124,7 @@ def page(board: list[tuple[str, bool]], of_board: str) -> str:
         killed="\n".join([KILLED_HEAD, *(line for line, _ in dead)]),
         emulated=table(BOARD_MOTORS, (line for line, _ in board)),
         encoders="\n".join(encoders()),
+        files="\n".join(files()),
         limits="\n".join(limits()),
     )
 

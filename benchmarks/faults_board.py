@@ -2,12 +2,14 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from faults_board_loop import BoardLoop
 from faults_loop import Outcome, outcome
 from faults_motor import Motor
 from faults_rows import KNOWN, MOTION
+from faults_supply import AWAY, lose_board_supply, lose_hub, lose_motor_supply
 
 from motor_board.emulation.chip import Hang
 from motor_board.emulation.edges import Edges, Line
@@ -23,6 +25,7 @@ class BoardFault:
     apply: Callable[[BoardLoop], None]
     channels: int = 1
     raw: float = 0.0  # of the motor's voltage
+    measured: bool = False  # the supply
 
 
 def kill_controller(loop: BoardLoop) -> None:
@@ -115,6 +118,27 @@ BOARD_FAULTS = (
     BoardFault("the link holds bytes back, up to 1 s, plain voltage", MOTION, hold_back, raw=0.6),
     BoardFault("firmware hangs", KNOWN, hang),
     BoardFault("board reset", KNOWN, press_reset),
+    BoardFault("motor's supply off for 0.5 s, and back", KNOWN, partial(lose_motor_supply, seconds=0.5)),
+    BoardFault("motor's supply off for 3 s, and back", KNOWN, partial(lose_motor_supply, seconds=3.0)),
+    *(
+        BoardFault(
+            f"motor's supply off for 3 s, and back, plain voltage of {raw:g}{how}",
+            KNOWN,
+            partial(lose_motor_supply, seconds=3.0),
+            raw=raw,
+            measured=measured,
+        )
+        for raw, how, measured in ((0.6, "", False), (0.3, ", measured", True))
+    ),
+    *(
+        BoardFault(f"board without supply for {away:g} s{how}", KNOWN, partial(lose, seconds=away), raw=raw)
+        for lose, how, raw in (
+            (lose_board_supply, "", 0.0),
+            (lose_board_supply, ", plain voltage", 0.6),
+            (lose_hub, " and without a port, plain voltage", 0.6),
+        )
+        for away in AWAY
+    ),
     BoardFault("encoder's cable off", MOTION, cable_off()),
     BoardFault("cable off, 50 stray edges a second", MOTION, cable_off(50.0)),
     BoardFault("two channels exchanged", MOTION, exchange_channels, channels=2),
@@ -126,7 +150,7 @@ BOARD_FAULTS = (
 
 def run_on_board(fault: BoardFault, motor: Motor, rate: float) -> Outcome:
     """What a fault does to a motor on the emulated board's pins."""
-    loop = BoardLoop(rate, motor, channels=fault.channels)
+    loop = BoardLoop(rate, motor, channels=fault.channels, supply=motor.voltage if fault.measured else 0.0)
     loop.run(0.6)
     if fault.raw:
         loop.raw = 0.0

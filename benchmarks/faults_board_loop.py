@@ -36,6 +36,7 @@ class BoardLoop:
     alive: bool = True  # the controller
     driving: bool = True  # the driver
     plugged: bool = True
+    powered: bool = True  # the board
     stuck: bool = False  # telemetry
     holds_back: float | None = None  # [s] since when the link hands bytes on later and later
     raw: float | None = None  # [V] sent in the controller's place
@@ -101,6 +102,8 @@ class BoardLoop:
 
     def _step(self) -> None:
         self.emulator.run(self.emulator.chip.cycle + LOOK)
+        if not self.powered:
+            self.emulator.power_up()
         data = self._pass_on(self._in, self.emulator.chip.drain())
         if self.driving:
             self._drive(b"" if self.stuck or not self.plugged else data)

@@ -1,4 +1,4 @@
-"""Programs that Linux kills while the motor has all its voltage: real processes, real firmware, real want of memory.
+"""Programs that Linux kills, or stops, while the motor has all its voltage: real processes, firmware, want of memory.
 
 The simulated motor (174 rad/s, 12 V) is on the emulated board's pins, and time is that board's clock. A program that is
 killed by a signal is killed at 0 ms; of those that run out of memory, the first has been seen to be dead at 0 ms.
@@ -114,6 +114,20 @@ def starve(one: Loop, victims: list["Popen[str]"]) -> float:
         return begin
 
 
+def pause(seconds: float) -> Callable[[Loop, list["Popen[str]"]], float]:
+    """Stop them as Ctrl-Z does, and let them go on."""
+
+    def act(one: Loop, victims: list["Popen[str]"]) -> float:
+        begin = one.time
+        for number in (signal.SIGSTOP, signal.SIGCONT):
+            for victim in victims:
+                victim.send_signal(number)
+            one.watch(lambda: one.time > begin + seconds)
+        return begin
+
+    return act
+
+
 HOW = {"killed (SIGKILL)": kill, "killed for want of memory": starve}
 WHOM: dict[str, Callable[[Loop], list["Popen[str]"]]] = {
     "driver": lambda one: [one.driver],
@@ -126,26 +140,36 @@ def run_killed(how: Callable[[Loop, list["Popen[str]"]], float], whom: Callable[
     """What becomes of the motor."""
     with loop() as one:
         begin = how(one, whom(one))
-        one.watch(lambda: one.time > begin + WATCHED)
+        end = one.time + WATCHED
+        one.watch(lambda: one.time > end)
         return outcome(one.moments, begin)
+
+
+FAULTS = {
+    **{f"{whom} {how}": (act, find) for how, act in HOW.items() for whom, find in WHOM.items()},
+    **{
+        f"{whom} stopped for {seconds:g} s (SIGSTOP), and goes on": (pause(seconds), WHOM[whom])
+        for whom in ("driver", "driver and controller")
+        for seconds in (0.3, 3.0)
+    },
+}
 
 
 def killed() -> list[tuple[str, bool]]:
     """The rows, and whether each is met."""
     rows = []
-    for how, act in HOW.items():
-        for whom, find in WHOM.items():
-            try:
-                one = run_killed(act, find)
-            except OSError as error:  # such groups take the rights of root
-                print(f"left out: {whom} {how}: {error}", file=sys.stderr)
-                continue
-            met = one.after is not None and one.after <= KNOWN
-            took = "never" if one.after is None else f"{1e3 * one.after:.0f}"
-            mark = "" if met else " **no**"
-            share = f"{one.speed / MOTOR.top:.0%} | {one.voltage / MOTOR.voltage:.0%}"
-            rows.append((f"| {whom} {how} | {1e3 * KNOWN:.0f}{mark} | {took} | {share} |", met))
-            print(rows[-1][0], file=sys.stderr)
+    for name, (act, find) in FAULTS.items():
+        try:
+            one = run_killed(act, find)
+        except OSError as error:  # such groups take the rights of root
+            print(f"left out: {name}: {error}", file=sys.stderr)
+            continue
+        met = one.after is not None and one.after <= KNOWN
+        took = "never" if one.after is None else f"{1e3 * one.after:.0f}"
+        mark = "" if met else " **no**"
+        share = f"{one.speed / MOTOR.top:.0%} | {one.voltage / MOTOR.voltage:.0%}"
+        rows.append((f"| {name} | {1e3 * KNOWN:.0f}{mark} | {took} | {share} |", met))
+        print(rows[-1][0], file=sys.stderr)
     return rows
 
 

@@ -9,6 +9,7 @@ from faults_injected import block
 from faults_line import Swapped
 from faults_loop import Line, Loop
 from faults_motor import MOTORS
+from faults_supply import lose_motor_supply
 
 from motor_model.sensing.board import BoardConfig, SimulatedBoard
 
@@ -150,6 +151,27 @@ def loose_divider(rate: float) -> str:
     return f"{max(abs(moment.voltage) for moment in loop.moments):.2f} V"
 
 
+def supply_back(seconds: float, raw: float):  # type: ignore[no-untyped-def]
+    """A measurement of what a motor does whose supply, which is not measured, was off for a while."""
+
+    def measure(rate: float) -> str:
+        loop = BoardLoop(rate)
+        loop.run(0.6)
+        loop.raw, loop.reference = (0.0, None) if raw else (None, 0.5 * MOTOR.top)
+        loop.run(0.05)
+        loop.raw = raw * MOTOR.voltage if raw else None
+        loop.run(1.5)
+        lose_motor_supply(loop, seconds)
+        begin = loop.time
+        loop.run(2.0)
+        loop.emulator.close()
+        during = [moment for moment in loop.moments if moment.time >= begin]
+        most = max(abs(moment.speed) for moment in during)
+        return f"{most / MOTOR.top:.0%} of the top speed, at the end {during[-1].speed / MOTOR.top:.0%}"
+
+    return measure
+
+
 CASES = {
     "12 V motor on a 24 V supply, 100 V asked for: largest voltage": higher_supply,
     "the same on 24 V that supply_voltage says, 6 V asked for, a loose divider that reads 3.5 V": loose_divider,
@@ -163,5 +185,8 @@ CASES = {
     "the same, shaft blocked": impatience(lambda: lambda sample: sample, blocked=True),
     "reversal from +86 % to −86 % of the top speed, measured speed": reversal(False),
     "the same with a model": reversal(True),
+    "motor's supply off for 0.1 s at half of the top speed: largest speed when it is back": supply_back(0.1, 0.0),
+    "the same for 0.5 s, plain voltage of 60 %": supply_back(0.5, 0.6),
+    "the same for 3 s, plain voltage of 30 %, supply not measured": supply_back(3.0, 0.3),
     "shaft shaken over one flank for 20 s, two channels": dither,
 }

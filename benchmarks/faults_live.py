@@ -14,8 +14,11 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+from faults_clock import HOUR, SetClock
+from faults_held_up import BOTH, CONTROLLER, LONG, PLANT, SHORT, HeldUp
 from faults_live_stage import MOTOR, Stage, stage
 from faults_loop import Outcome, outcome
+from faults_twice import end_first, end_second, launch_both, launch_twice
 from geometry_msgs.msg import Twist
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Header
@@ -28,6 +31,7 @@ from motor_ros.messages import time_message, voltage_message
 
 # [s] from when it could be known; where what has been recorded is written every half a second; and watched
 KNOWN, KNOWN_AT_WRITING, WATCHED = 0.15, 0.65, 3.0
+WANTED, OVERSHOOT = 0.5, 0.1  # of the top speed, and of that: a loop that goes on may be so much faster for a moment
 DAY = 86_400_000_000_000  # [ns]
 LOGGED = re.compile(r"^\[\w+\] \[[\d.]+\] \[\w+\]: ")  # what begins a line of a log
 HEAD = "| fault | may take | ms | speed | voltage | what was said |\n|---|---|---|---|---|---|"
@@ -254,6 +258,7 @@ class LiveFault:
     apply: Callable[[Stage], None]
     words: str
     most: float = KNOWN  # [s]
+    goes_on: bool = False  # there is nothing to stop for: no motor turns faster than was asked for
 
 
 LIVE_FAULTS = (
@@ -287,6 +292,32 @@ LIVE_FAULTS = (
         "The output is off",
     ),
     LiveFault("`play` of voltages stopped for 1.5 s, and goes on", resume_play, "Playing stood still"),
+    *(
+        LiveFault(
+            f"{who} stopped for {seconds:g} s, {how}", HeldUp(which, seconds, stream), words, goes_on=seconds == SHORT
+        )
+        for which, who, words in (
+            (CONTROLLER, "a controller", "stood still"),
+            (PLANT, "a plant", "held up"),
+            (BOTH, "both", "held up"),
+        )
+        for seconds in (SHORT, LONG)
+        for stream, how in ((False, "one reference before"), (True, "references keep coming"))
+    ),
+    *(
+        LiveFault(
+            f"the clock of {whose} is set by an hour, {way}",
+            SetClock(plant * hour, controller * hour),
+            "stamp",
+            goes_on=True,
+        )
+        for whose, plant, controller in (("both", 1, 1), ("the plant's computer", 1, 0), ("the controller's", 0, 1))
+        for way, hour in (("ahead", HOUR), ("back", -HOUR))
+    ),
+    LiveFault("a launch file started once more, references keep coming", launch_twice, "publish motor/speed"),
+    LiveFault("the second of two launches is ended, references keep coming", end_second, "publish motor/speed"),
+    LiveFault("the first of two launches is ended, references keep coming", end_first, "publish motor/speed"),
+    LiveFault("a launch file started twice at once, references then", launch_both, "publish motor/speed"),
 )
 
 
@@ -306,10 +337,12 @@ def live() -> list[tuple[str, bool]]:
     rows = []
     for fault in LIVE_FAULTS:
         one = run_live(fault)
+        speed, voltage = one.speed / MOTOR.top, one.voltage / MOTOR.voltage
         met = one.after is not None and (one.voltage == 0.0 or one.after <= fault.most)
         after = 0.0 if one.voltage == 0.0 else one.after  # and not when it was heard first
         took = "never" if after is None else f"{1e3 * after:.0f}"
-        speed, voltage = one.speed / MOTOR.top, one.voltage / MOTOR.voltage
+        if fault.goes_on:
+            met, took = speed <= WANTED * (1.0 + OVERSHOOT), "goes on" if after is None else took
         mark = "" if met else " **no**"
         rows.append(
             (

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+from subprocess import PIPE, Popen
 from typing import Any
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "tests" / "support"))
@@ -15,7 +16,7 @@ sys.path.append(str(Path(__file__).resolve().parents[1] / "tests" / "support"))
 from diagnostic_msgs.msg import DiagnosticArray
 from faults_loop import Moment
 from faults_motor import MOTORS
-from workbench import Bench, quit_all, start
+from workbench import ENVIRONMENT, Bench, program, quit_all, start
 
 from motor_model.model_file import save
 from motor_msgs.msg import ControlState, MotorSpeed, MotorVoltage
@@ -37,6 +38,8 @@ class Stage:
     said: list[str] = field(default_factory=list)
     names: set[str] = field(default_factory=set)  # of the plants: a recording that is played speaks for another
     sent: float | None = None  # [V] on motor/voltage, every 5 ms
+    environment: dict[str, str] = field(default_factory=dict)  # of programs that are started with more than ours
+    since: int = 0  # [ns] ROS time before which a sample was made that is not listened to
 
     def __post_init__(self) -> None:
         self.model = self.folder / "model.yaml"
@@ -62,12 +65,19 @@ class Stage:
         self.bench.node.create_subscription(ControlState, topic, self._on_state, qos.CONTROL_STATE)
         options = ["-r", f"__ns:=/{namespace}"] if namespace else []
         values = ("-p", "latency_limit:=0.5", "-p", "reference_timeout:=2.0")
-        self.run("motor_control", "motor_control", "--ros-args", *options, *others, *values)
+        self.run("motor_control", "motor_control", "--ros-args", *options, *values, *others)
 
     def run(self, package: str, command: str, *arguments: object) -> Any:
         """Start a program."""
-        self.programs.append(start(package, command, *arguments))
+        self.programs.append(self._start(package, command, *arguments))
         return self.programs[-1]
+
+    def _start(self, package: str, command: str, *arguments: object) -> Any:
+        """Start a program; where its environment is one of its own, no fork of a process that has another."""
+        if not self.environment:
+            return start(package, command, *arguments)
+        words, environment = [program(package, command), *map(str, arguments)], {**ENVIRONMENT, **self.environment}
+        return Popen(words, env=environment, stdout=PIPE, stderr=PIPE, text=True)
 
     def until(self, condition: Callable[[], bool], what: str) -> None:
         """Hear what comes until it holds."""
@@ -104,7 +114,8 @@ class Stage:
             self.said += one.communicate()[1].splitlines()
 
     def _on_speed(self, message: MotorSpeed) -> None:
-        if message.header.frame_id in self.names:
+        stamp = message.header.stamp
+        if message.header.frame_id in self.names and stamp.sec * 10**9 + stamp.nanosec >= self.since:
             self.moments.append(Moment(time.monotonic(), message.voltage, message.speed, ""))
 
     def _on_state(self, message: ControlState) -> None:

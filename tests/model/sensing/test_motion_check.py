@@ -8,7 +8,6 @@ from motion_samples import checked, sample
 
 from motor_model.sample import Sample
 
-
 SWITCH_ON = "switch it on, and join its ground to the board's"
 
 
