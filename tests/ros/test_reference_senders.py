@@ -36,16 +36,11 @@ def test_a_controller_that_is_started_again_does_not_obey_a_running_stream(
     end(process)  # who is killed is there for everybody for twenty seconds more
     plant.wait(lambda: plant._reference.get_subscription_count() == 0, "the end of the first")
     plant.states.clear()
+    count = len(plant.voltages)
     second = start("motor_control", "motor_control", *PATIENT)
     try:
         plant.heard(plant._reference)
-
-        def heard() -> bool:
-            plant.say(0.0)
-            return bool(plant.states)
-
-        plant.wait(heard, "an answer")
-        count = len(plant.voltages)
+        plant.await_controller()
         answers = hear_out(plant, 2.0)
         assert {answer.state for answer in answers} == {"disabled"}
         assert all(message.voltage == 0.0 for message in plant.voltages[count:])

@@ -12,6 +12,7 @@ from rclpy.duration import Duration
 from std_msgs.msg import Float64
 from workbench import Bench, end, start
 
+from motor_control.settings import UNHEARD
 from motor_model.sample import Info, Sample
 from motor_msgs.msg import ControlState, MotorInfo, MotorSpeed, MotorVoltage
 from motor_ros import qos
@@ -42,13 +43,20 @@ class FakePlant(Bench):
         self.heard(self._speed, self._info, self._reference)
         if not self.told:
             self.tell(Info(name="wheel"), measurement="speed")  # it has no edges
+        self.await_controller()
+        self.answer(0.0)
+
+    def await_controller(self) -> None:
+        """Send samples until a controller answers that has heard `motor/info`: before that it is stopped, and silent.
+
+        Whoever comes late gets that message once more, and may get the first samples before it.
+        """
 
         def heard() -> bool:
             self.say(0.0)
-            return bool(self.states)
+            return any(one.state != "no_samples" and one.reason != UNHEARD for one in self.states)
 
         self.wait(heard, "an answer")
-        self.answer(0.0)
 
     def start_again(self) -> None:
         """Publish samples as another process would, which goes on with the board's clock."""
