@@ -264,9 +264,10 @@ def test_one_sender_is_never_two_however_late_and_lossy(messages: list[tuple[int
 @given(st.integers(1, 50), st.integers(1, 50), st.integers(0, 400), st.integers(-300, 300), st.booleans())
 def test_two_senders_are_told_at_once(first: int, second: int, after: int, ahead: int, named: bool) -> None:
     """Each at its pace [ms], the second later than the first; before either has sent twice more, it is said."""
-    sent = [(T0 + at * MS, 2.0, "", 301 + k) for k, at in enumerate(range(0, 700, first))]
+    end = after + 6 * max(first, second)  # each has sent twice as often as it takes, and it is still said
+    sent = [(T0 + at * MS, 2.0, "", 301 + k) for k, at in enumerate(range(0, end, first))]
     name, begin = "other" if named else "", 301 + max(-300, after // first + ahead)
-    sent += [(T0 + at * MS + 1, -9.0, name, begin + k) for k, at in enumerate(range(after, 700, second))]
+    sent += [(T0 + at * MS + 1, -9.0, name, begin + k) for k, at in enumerate(range(after, end, second))]
     plant, heard = gate(), {2.0: 0, -9.0: 0}
     for now, voltage, who, number in sorted(sent):
         plant = plant.take(voltage, now, who, number)

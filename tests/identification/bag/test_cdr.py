@@ -5,7 +5,7 @@ from dataclasses import fields, replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from motor_bags import SAMPLES
 from rclpy.serialization import deserialize_message, serialize_message
@@ -23,6 +23,7 @@ ANY_SAMPLE = st.builds(Sample, LONGS, FLOATS, FLOATS, LONGS, LONGS, FLOATS, FLOA
 ANY_NAME = st.text(st.characters(codec="utf-8", exclude_characters="\0"), max_size=40)
 
 
+@settings(max_examples=30)  # of ten samples each
 @given(st.lists(st.tuples(ANY_SAMPLE, ANY_NAME, st.integers(-(2**31) * 10**9, 2**62)), min_size=1, max_size=20))
 def test_it_says_what_rclpy_says(given: list[tuple[Sample, str, int]]) -> None:
     stored = [
