@@ -5,8 +5,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from faults_live_stage import MOTOR, Stage
-from faults_twice import refer_by_stream
+from faults_live_stage import Stage
+from faults_twice import refer_by_stream, until_moving
 from std_msgs.msg import Float64
 
 from motor_ros import qos
@@ -35,13 +35,12 @@ class HeldUp:
 def run_loop(stage: Stage, stream: bool) -> None:
     """Drive a plant by a controller to which references keep coming, or came once."""
     if stream:
-        refer_by_stream(stage)
+        reference = refer_by_stream(stage)
     else:
         reference = stage.bench.publisher(Float64, "motor/reference", qos.REFERENCE)
         stage.bench.heard(reference)
         stage.until(lambda: bool(stage.said) and len(stage.moments) > 50, "the loop")
-        reference.publish(Float64(data=0.5 * MOTOR.top))
-    stage.until(lambda: any(moment.speed > 0.4 * MOTOR.top for moment in stage.moments), "motion")
+    until_moving(stage, reference)
     stage.hear(1.0)
 
 

@@ -1,5 +1,7 @@
 """Launch files that are started twice, for `faults_live.py`: two plants and two controllers of one motor."""
 
+from typing import Any
+
 from faults_live_stage import MOTOR, Stage
 from std_msgs.msg import Float64
 from workbench import quit_all
@@ -16,8 +18,7 @@ def launch(stage: Stage) -> None:
 def launch_twice(stage: Stage) -> None:
     """A launch file is started once more while the motor runs, and references keep coming."""
     launch(stage)
-    refer_by_stream(stage)
-    stage.until(lambda: any(moment.speed > 0.4 * MOTOR.top for moment in stage.moments), "motion")
+    until_moving(stage, refer_by_stream(stage))
     launch(stage)
     stage.until(lambda: stage.bench.node.count_publishers("motor/speed") > 1, "the second plant")
 
@@ -46,8 +47,18 @@ def end_first(stage: Stage) -> None:
     quit_all(stage.programs[:2])
 
 
-def refer_by_stream(stage: Stage) -> None:
+def until_moving(stage: Stage, reference: Any) -> None:
+    """Wait for the motion that is asked for; who is not obeyed, for this machine is busy, begins again."""
+    while not any(moment.speed > 0.4 * MOTOR.top for moment in stage.moments):
+        reference.publish(Float64(data=0.0))
+        stage.hear(0.1)
+        reference.publish(Float64(data=0.5 * MOTOR.top))
+        stage.hear(2.5)
+
+
+def refer_by_stream(stage: Stage) -> Any:
     """Send references from now on, 20 a second."""
     reference = stage.bench.publisher(Float64, "motor/reference", qos.REFERENCE)
     stage.bench.heard(reference)
     stage.bench.node.create_timer(0.05, lambda: reference.publish(Float64(data=0.5 * MOTOR.top)))
+    return reference
