@@ -9,7 +9,7 @@ from faults_board_loop import BoardLoop
 from faults_loop import Outcome, outcome
 from faults_motor import Motor
 from faults_rows import KNOWN, MOTION
-from faults_supply import AWAY, lose_board_supply, lose_hub, lose_motor_supply
+from faults_supply import lose_board_supply, lose_hub, lose_motor_supply
 
 from motor_board.emulation.chip import Hang
 from motor_board.emulation.edges import Edges, Line
@@ -131,14 +131,10 @@ BOARD_FAULTS = (
         for raw, how, measured in ((0.6, "", False), (0.3, ", measured", True))
     ),
     *(
-        BoardFault(f"board without supply for {away:g} s{how}", KNOWN, partial(lose, seconds=away), raw=raw)
-        for lose, how, raw in (
-            (lose_board_supply, "", 0.0),
-            (lose_board_supply, ", plain voltage", 0.6),
-            (lose_hub, " and without a port, plain voltage", 0.6),
-        )
-        for away in AWAY
+        BoardFault(f"board without supply for {away:g} s", KNOWN, partial(lose_board_supply, seconds=away))
+        for away in (0.1, 0.5, 3.0)
     ),
+    BoardFault("hub of the board off for 3 s, plain voltage", KNOWN, partial(lose_hub, seconds=3.0), raw=0.6),
     BoardFault("encoder's cable off", MOTION, cable_off()),
     BoardFault("cable off, 50 stray edges a second", MOTION, cable_off(50.0)),
     BoardFault("two channels exchanged", MOTION, exchange_channels, channels=2),

@@ -4,8 +4,6 @@ from dataclasses import replace
 
 from faults_board_loop import BoardLoop
 
-AWAY = (0.1, 0.5, 3.0)  # [s]
-
 
 def lose_motor_supply(loop: BoardLoop, seconds: float) -> None:
     """The supply of motor and bridge is off for a time."""

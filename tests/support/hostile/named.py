@@ -212,6 +212,7 @@ CASES = (
 DEAR = frozenset(
     {
         "import_csv: --split over values that alternate",
+        "a minute at 0 V, then motion, diagnosed",
         "a motor called $\\frac{, diagnosed, with a report",
         "a motor whose name is not UTF-8",
         "a workbook whose rows are far apart",
