@@ -20,7 +20,6 @@ from motor_ros import qos
 
 Start = Callable[..., "Popen[str]"]
 SIDES = ("left", "right")
-SLOWLY = ("-p", "sample_rate:=100.0")  # half of the processor's time of all five nodes
 RADIUS, SEPARATION = 0.05, 0.2  # [m]
 
 
@@ -58,7 +57,7 @@ def held(timeout: float) -> SetParameters.Request:
 def test_a_robot_is_driven_and_stops_where_one_wheel_does(bench: Bench, start: Start) -> None:
     for side in SIDES:
         options = ("--ros-args", "-r", f"__ns:=/{side}", "-p")
-        start("motor_sim", "motor_sim", *options, f"name:={side}", *("-p", "single_channel:=false"), *SLOWLY)
+        start("motor_sim", "motor_sim", *options, f"name:={side}", "-p", "single_channel:=false")
         start("motor_control", "motor_control", *options, "reference_timeout:=2.0", "-p", "latency_limit:=0.5")
     robot = ("-p", f"wheel_radius:={RADIUS}", "-p", f"wheel_separation:={SEPARATION}", "-p", "right_reversed:=true")
     drive = start("motor_examples", "diff_drive", "--ros-args", *robot)
