@@ -96,6 +96,7 @@ class Effect:
         anywhere: it happens once, or slowly: a few pieces of a long recording do not show it.
         after_reversals: it shows for a while after the motor has turned round, and nowhere else.
         constant: the effect of the same size that it is where it began before the motion did.
+        of_supply: what it does depends on the share of the supply that is applied.
         fitted: a fit can have it as a parameter; else it is recognised in what any fit leaves.
     """
 
@@ -112,6 +113,7 @@ class Effect:
     anywhere: bool = False
     after_reversals: bool = False
     constant: str | None = None
+    of_supply: bool = False
     fitted: bool = True
 
     @property

@@ -107,6 +107,7 @@ EFFECTS = (
         "coast",
         "coasting in the off time (coast_drive)",
         (P("coast_share", "–", 0.0, 0.0, 1.0, maximum=1.0, starts=(0.2,)),),
+        of_supply=True,
     ),
     Effect(
         "supply_sag",
@@ -114,6 +115,7 @@ EFFECTS = (
         "staircase",
         "sag of the supply (supply_sag)",
         (P("sag", "–", 0.0, 0.0, 1.0, starts=(0.05,)),),
+        of_supply=True,
     ),
     Effect(
         "transport_delay",

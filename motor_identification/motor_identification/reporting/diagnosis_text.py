@@ -8,9 +8,10 @@ from motor_identification.diagnosis.result import Diagnosis, Finding, Verdict, l
 from motor_identification.diagnosis.thresholds import EXPLAINED_GAP
 from motor_identification.discrepancy.missing_torque import describe_torque, estimate_missing_torque
 from motor_identification.discrepancy.region_text import describe_error
+from motor_identification.reporting.caveats_text import describe_disturbance, describe_gains, describe_supply
 from motor_identification.reporting.diagnosis_table import format_parameters
 from motor_identification.reporting.names import capitalize, effect_name, join_effects, join_names
-from motor_identification.reporting.numbers import describe_change, format_measured, format_ratio
+from motor_identification.reporting.numbers import describe_change, format_ratio
 
 GAP, FITTED_GAP = "validation RMS error (gap)", "RMS error (gap)"
 TOO_SHORT = "The recording is too short to keep a part of it for validation: record more motion."
@@ -22,10 +23,6 @@ NO_MOTOR = (
 SEEN = (
     "The command changes too seldom to hold any of it out: this gap is of the motion that was fitted; --validate BAG "
     "tests it on another."
-)
-GAINS = (
-    "From run to run the speed at the same voltage differed by {:.2g} % (RMS), as it does where the supply differs; if "
-    "that is a battery, log its voltage."
 )
 UNMODELLED = "Check for a load, a supply or a sensor that was not recorded; the report shows the residual torque."
 
@@ -44,14 +41,9 @@ STRUCTURE_NAMES = {
 def summarize_diagnosis(diagnosis: Diagnosis) -> str:
     """Say what was missing, what it explains and what is left, in one to three sentences, then what to do."""
     seen = SEEN if diagnosis.after.seen else ""
-    parts = (_SUMMARIES[diagnosis.verdict](diagnosis), _describe_gains(diagnosis), seen, _next_step(diagnosis))
+    told = (describe_gains(diagnosis), describe_supply(diagnosis), seen, _next_step(diagnosis))
+    parts = (_SUMMARIES[diagnosis.verdict](diagnosis), *told)
     return " ".join(part for part in parts if part)
-
-
-def _describe_gains(diagnosis: Diagnosis) -> str:
-    """Say by how much the gain differs from run to run; empty where it does not."""
-    scatter = diagnosis.gain_scatter
-    return GAINS.format(100.0 * scatter) if scatter > 0.0 else ""
 
 
 def _describe_gap_reduction(diagnosis: Diagnosis) -> str:
@@ -97,23 +89,13 @@ def _describe_found(findings: Sequence[Finding], sure: bool = True) -> str:
 def _explained(diagnosis: Diagnosis) -> str:
     model = "it" if len(diagnosis.findings) == 1 else "them"
     text = f"{_describe_found(diagnosis.findings)}. With {model}, {_describe_gap_reduction(diagnosis)}."
-    parts = (text, _describe_disturbance(diagnosis), _describe_undetermined(diagnosis), _describe_untestable(diagnosis))
+    parts = (text, describe_disturbance(diagnosis), _describe_undetermined(diagnosis), _describe_untestable(diagnosis))
     return " ".join(part for part in parts if part)
 
 
 def _nothing_missing(diagnosis: Diagnosis) -> str:
     text = f"Nothing is missing: {_describe_gap(diagnosis)}."
-    return " ".join(part for part in (text, _describe_disturbance(diagnosis)) if part)
-
-
-def _describe_disturbance(diagnosis: Diagnosis) -> str:
-    """Say how strong the random torque is that nothing predicts, with standard errors; empty where there is none."""
-    found = diagnosis.disturbance
-    if found is None:
-        return ""
-    strength = format_measured(found.rms_voltage, found.rms_error, "V RMS")
-    time = format_measured(found.correlation_time, found.time_error, "s")
-    return f"The rest is random: a torque of {strength}, correlated over {time}."
+    return " ".join(part for part in (text, describe_disturbance(diagnosis)) if part)
 
 
 def _describe_structure(diagnosis: Diagnosis) -> str:
@@ -198,7 +180,7 @@ def _undecided(diagnosis: Diagnosis) -> str:
         parts = [_describe_no_finding(diagnosis)]
     if diagnosis.model.on_bound.get("kv", False):
         parts.append(NO_MOTOR)
-    parts.append(_describe_disturbance(diagnosis))
+    parts.append(describe_disturbance(diagnosis))
     if diagnosis.time_limit:
         parts.insert(0, OUT_OF_TIME.format(diagnosis.time_limit))
     if diagnosis.undetermined:

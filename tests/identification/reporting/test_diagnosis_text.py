@@ -106,14 +106,6 @@ def test_what_one_response_shows_may_be_missing(variants: dict[Verdict, Diagnosi
     assert rivals.startswith("Coulomb friction, dead zone or load bias may be missing; this recording cannot")
 
 
-def test_a_random_torque_is_said_with_its_strength(variants: dict[Verdict, Diagnosis]) -> None:
-    torque = Disturbance(0.1503, 0.0042, 0.0512, 0.0031)
-    for verdict in (Verdict.EXPLAINED, Verdict.NOTHING_MISSING, Verdict.UNDECIDED):
-        said = summarize_diagnosis(replace(variants[verdict], disturbance=torque))
-        assert "The rest is random: a torque of 0.1503 ± 0.0042 V RMS, correlated over 0.0512 ± 0.0031 s." in said
-        assert "random" not in summarize_diagnosis(replace(variants[verdict], disturbance=None))
-
-
 @pytest.mark.parametrize(("times", "told"), [(0.99, True), (1.01, False)])
 def test_nothing_is_missing_is_not_said_where_a_random_torque_may_hide_it(
     variants: dict[Verdict, Diagnosis], times: float, told: bool

@@ -1,0 +1,56 @@
+"""What a diagnosis's numbers are beside or depend on, in words: a random torque, gains of runs, an assumed supply."""
+
+from collections.abc import Sequence
+
+from motor_identification.diagnosis.result import Diagnosis, Finding
+from motor_identification.noise.error_model import Disturbance
+from motor_identification.reporting.numbers import format_measured
+from motor_model.effects import EFFECT_BY_NAME
+
+BREAKAWAY, PEAKS = "breakaway_voltage", 3.0  # standard deviations that a torque reaches now and then
+SUPPLY = (
+    "A supply of {:.4g} V is assumed, the most that was applied unless the import said more: of another one "
+    "(import_log --max-voltage) kv and what its bridge does come out otherwise."
+)
+GAINS = (
+    "From run to run the speed at the same voltage differed by {:.2g} % (RMS), as it does where the supply differs; if "
+    "that is a battery, log its voltage."
+)
+
+
+def describe_gains(diagnosis: Diagnosis) -> str:
+    """Say by how much the gain differs from run to run; empty where it does not."""
+    scatter = diagnosis.gain_scatter
+    return GAINS.format(100.0 * scatter) if scatter > 0.0 else ""
+
+
+def describe_supply(diagnosis: Diagnosis) -> str:
+    """Say which supply a bridge was taken to be on, where a log does not tell and it matters; else empty."""
+    names = {name for one in diagnosis.findings for name in (one.effect, *one.ambiguous_with)}
+    imported = [one.info for one in diagnosis.after.recordings if one.info.source == "import"]
+    if not any(EFFECT_BY_NAME[name].of_supply for name in names) or not imported:
+        return ""
+    return SUPPLY.format(max(info.full_voltage for info in imported))
+
+
+def describe_disturbance(diagnosis: Diagnosis) -> str:
+    """Say how strong the random torque is that nothing predicts, with standard errors; empty where there is none."""
+    found = diagnosis.disturbance
+    if found is None:
+        return ""
+    strength = format_measured(found.rms_voltage, found.rms_error, "V RMS")
+    time = format_measured(found.correlation_time, found.time_error, "s")
+    torque = f"The rest is random: a torque of {strength}, correlated over {time}."
+    return torque + _describe_breakaway(diagnosis.findings, found)
+
+
+def _describe_breakaway(findings: Sequence[Finding], torque: Disturbance) -> str:
+    """Say by how much a motor may hold more than it seems beside a random torque; empty where its error covers that.
+
+    It breaks away at that torque's peaks: simulated, 2.7 and 4.7 standard deviations of it below the true voltage.
+    """
+    peaks = PEAKS * torque.rms_voltage
+    errors = [one.parameters[BREAKAWAY][1] for one in findings if BREAKAWAY in one.parameters]
+    if not errors or not peaks > errors[0]:
+        return ""
+    return f" The motor breaks away at the peaks of that: {BREAKAWAY} may be larger by {peaks:.2g} V or so."

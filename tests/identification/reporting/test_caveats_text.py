@@ -1,0 +1,53 @@
+"""What the numbers of a diagnosis are beside, or depend on, is said with them."""
+
+from dataclasses import replace
+
+import pytest
+
+from motor_identification.diagnosis.result import Diagnosis, Verdict
+from motor_identification.noise.error_model import Disturbance
+from motor_identification.reporting.diagnosis_text import summarize_diagnosis
+
+
+def test_a_random_torque_is_said_with_its_strength(variants: dict[Verdict, Diagnosis]) -> None:
+    torque = Disturbance(0.1503, 0.0042, 0.0512, 0.0031)
+    for verdict in (Verdict.EXPLAINED, Verdict.NOTHING_MISSING, Verdict.UNDECIDED):
+        said = summarize_diagnosis(replace(variants[verdict], disturbance=torque))
+        assert "The rest is random: a torque of 0.1503 ± 0.0042 V RMS, correlated over 0.0512 ± 0.0031 s." in said
+        assert "random" not in summarize_diagnosis(replace(variants[verdict], disturbance=None))
+
+
+@pytest.mark.parametrize(("error", "said"), [(0.44, True), (0.46, False)])
+def test_a_breakaway_beside_a_random_torque_may_be_larger(
+    variants: dict[Verdict, Diagnosis], error: float, said: bool
+) -> None:
+    """An independent simulator's motors held 0.84 and 0.22 V where 0.644 ± 0.031 and 0.131 ± 0.016 V were told."""
+    one, torque = variants[Verdict.EXPLAINED], Disturbance(0.15, 0.004, 0.05, 0.003)
+    held = replace(one.findings[0], effect="static_friction", parameters={"breakaway_voltage": (0.6, error)})
+    text = summarize_diagnosis(replace(one, findings=(held,), disturbance=torque))
+    assert ("breakaway_voltage may be larger by 0.45 V or so" in text) is said
+    assert "breaks away" not in summarize_diagnosis(replace(one, disturbance=torque))
+    assert "breaks away" not in summarize_diagnosis(replace(one, findings=(held,), disturbance=None))
+
+
+@pytest.mark.parametrize("source", ["import", "hardware"])
+@pytest.mark.parametrize(
+    ("effect", "rivals", "of_supply"),
+    [
+        ("coast_drive", (), True),
+        ("supply_sag", (), True),
+        ("dead_zone", ("coast_drive",), True),
+        ("dead_zone", (), False),
+    ],
+)
+def test_the_supply_that_a_log_does_not_tell_is_said_where_it_matters(
+    variants: dict[Verdict, Diagnosis], source: str, effect: str, rivals: tuple[str, ...], of_supply: bool
+) -> None:
+    one = variants[Verdict.EXPLAINED]
+    (found,) = one.findings
+    told = [replace(r, info=replace(r.info, source=source, max_voltage=9.6)) for r in one.after.recordings]
+    after = replace(one.after, recordings=tuple(told))
+    said = summarize_diagnosis(
+        replace(one, findings=(replace(found, effect=effect, ambiguous_with=rivals),), after=after)
+    )
+    assert ("A supply of 9.6 V is assumed" in said) is (of_supply and source == "import")
