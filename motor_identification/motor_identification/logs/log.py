@@ -13,6 +13,7 @@ from motor_identification.logs.form import CsvForm, Kind, time_unit_size
 from motor_identification.logs.motion import Motion, read_motion
 from motor_identification.logs.rows.absurd_speeds import drop_absurd_beginnings
 from motor_identification.logs.rows.drive.coded_rows import drop_coded_rows
+from motor_identification.logs.rows.drive.logged_levels import split_between_levels
 from motor_identification.logs.rows.drive.unpowered_start import drop_unpowered_start
 from motor_identification.logs.rows.even_clock import restore_even_clock
 from motor_identification.logs.rows.parts import (
@@ -95,6 +96,7 @@ def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log
     signals, full = unwrap_clock(signals, time_unit_size(form.time_unit))
     signals, stray = drop_stray_stamps(signals)
     signals, restarts = split_at_restarts(signals, form)
+    signals, levels = split_between_levels(signals)
     stamped = signals
     signals, stamps = separate_stamps(signals)
     signals, divided = divide_by_regular_rows(stamped, signals) if form.kind is Kind.SPEED else (signals, [])
@@ -103,7 +105,7 @@ def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log
     signals, absurd = drop_absurd_beginnings(signals) if form.kind is Kind.SPEED else (signals, [])
     signals, gaps = split_at_gaps(signals)
     signals, clock = restore_even_clock(signals, form.even_clock, form.kind is Kind.SPEED)
-    said += [*full, *stray, *restarts, *stamps, *divided, *first, *unpowered, *absurd, *gaps, *clock]
+    said += [*full, *stray, *restarts, *levels, *stamps, *divided, *first, *unpowered, *absurd, *gaps, *clock]
     check_rest(signals, table, form)
     check_steps(signals)
     info = replace(info, sample_period=float(np.median(signals.steps())) * 1e-9)

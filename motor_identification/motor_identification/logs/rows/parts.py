@@ -74,7 +74,7 @@ def split_at_restarts(signals: Signals, form: CsvForm) -> tuple[Signals, list[st
         )
     parts = signals.split(back)
     said = f"{form.time} begins again {_times(number)}: {_bags(parts)}{_alone(signals, parts)}."
-    return _named_by_voltage(parts), [said]
+    return name_by_voltage(parts), [said]
 
 
 def _lost_order(signals: Signals, back: Bools) -> int | None:
@@ -154,8 +154,8 @@ def _inside(signals: Signals, marks: Bools) -> Bools:
     return inside
 
 
-def _named_by_voltage(signals: Signals) -> Signals:
-    """Runs of one voltage each are named by it, if no two have the same."""
+def name_by_voltage(signals: Signals) -> Signals:
+    """Name runs of one voltage each by it, if no two have the same."""
     levels = [np.unique(signals.voltage[run][: run.stop - run.start]) for run in signals.runs.values()]
     if any(len(level) != 1 for level in levels):
         return signals
