@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_identification.logs.columns.heading import Heading, is_pulse_of_esc
-from motor_identification.logs.columns.vocabulary import UNITS, Quantity, words_of
+from motor_identification.logs.columns.vocabulary import SHARES, UNITS, VOLTAGE_WORDS, Quantity, words_of
 from motor_identification.logs.csv.table import Table
 
 Floats = NDArray[np.float64]
@@ -26,11 +26,6 @@ FULL_DUTIES = (1.0, 100.0, 255.0, 1000.0, 1023.0, 4095.0, 32767.0, 65535.0)
 # and of timers of 11 bits: half of 12 bits is 2048 or 2000 to whoever writes it.
 FULL_WHERE_REACHED = (127.0, 400.0, 2047.0)
 _PER_CENT = frozenset({"duty", "power", "throttle", "output", "effort", "control"})
-# What is written to a timer, or a share by its name; a command of another name may be in volts.
-_TIMERS = words_of(
-    "duty pwm dutycycle throttle power шим 占空比 듀티 cyclique tastgrad tastverhältnis wypełnienie wypelnienie střída "
-    "strida doluluk umplere скважность effort esforço esforco esfuerzo"
-)
 _EFFORTS = words_of("effort esforço esforco esfuerzo")  # a share by its name alone: a control effort is a command
 _CONTROLLERS = words_of("control controle contrôle controller")
 _PULSES = (1_000.0, 2_500.0)  # [µs] the longest of a log, of which none is a share of the supply
@@ -42,7 +37,6 @@ MILLIVOLTS_FROM = 100.0  # such a supply is given in mV
 _EFFORT = "effort"  # of joint states
 REACHED = 0.5  # of a register of 16 bits, below which a largest duty tells nothing of it: 5,299 is of 5,319 or of 6,000
 FEWEST_MILLIVOLTS = 2000.0  # of what is called a voltage: fewer may be a duty of 255 or 1,023
-VOLTAGE_WORDS = frozenset({"voltage", "volt", "volts", "voltaje", "spannung", "tension", "tensión"})
 LARGEST_VOLTS = 60.0  # whole numbers beyond are a duty
 MOST_VOLTS = 1000.0  # and any numbers beyond these, of machines on a mains voltage, are no volts
 _LARGEST_UNNAMED = 24.0  # and where no name says that they are volts
@@ -109,7 +103,7 @@ def duty_drive(heading: Heading, values: Floats, full: float | None = None) -> D
 def _why_in_volts(heading: Heading, values: Floats, largest: float) -> str:
     """Why what is called a command holds volts: they are a few, or are cut off where supplies are; empty where not."""
     of_controller = bool(_CONTROLLERS & set(heading.words))
-    if heading.unit or set(heading.words) & (_TIMERS - _EFFORTS if of_controller else _TIMERS) or largest <= 1.0:
+    if heading.unit or set(heading.words) & (SHARES - _EFFORTS if of_controller else SHARES) or largest <= 1.0:
         return ""
     if largest <= _MOST_VOLTS:
         return "no duty is so small"

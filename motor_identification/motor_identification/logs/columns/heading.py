@@ -10,10 +10,12 @@ from motor_identification.logs.columns.vocabulary import (
     MOVES,
     OF_OTHERS,
     OUTPUTS,
+    SHARES,
     SIDES,
     TAILS,
     UNIT_BY_SPELLING,
     UNITS,
+    VOLTAGE_WORDS,
     WORDS,
     Quantity,
     words_of,
@@ -27,7 +29,9 @@ _PULSES = frozenset(["esc", "signal", "pwm", "throttle", "pulse", "width", "comm
 _MILLI = re.compile(r"(?<![^\W\d_])m([AVS])(?![^\W_])")  # units of one word, whatever their capitals
 _VOLTS_AT_THE_END = re.compile(r"[^\W_][\s_]V$")  # `left_v` is a velocity
 _SENSORS = frozenset(["encoder", "enc", "qei"])
-_AXES, _JOINT_FIELDS = frozenset(["yaw", "pitch", "roll"]), frozenset(["position", "velocity", "effort"])
+AXES = frozenset(["yaw", "pitch", "roll"])
+_JOINT_FIELDS = frozenset(["position", "velocity", "effort"])
+_OF_AXES = _JOINT_FIELDS | SHARES | VOLTAGE_WORDS  # what a machine's axis has, and no angle of a body in the air
 _TELLING = frozenset().union(MEASURED, *(WORDS[kind] for kind in (*MOVES, Quantity.VOLTAGE, Quantity.DUTY)))
 _KNOWN = frozenset().union(*WORDS.values(), MEASURED, FILTERED)
 _MOTIONS = frozenset(word for kind in MOVES for word in WORDS[kind] if len(word) > 2)
@@ -84,7 +88,8 @@ def is_of_joint_states(heading: Heading) -> bool:
 
 def words_besides(heading: Heading) -> tuple[str, ...]:
     """The words of a name that tell no quantity, but a machine's part: `front left` of `frontLeftVolts`."""
-    return tuple(word for word in heading.words if word not in _TELLING)
+    telling = _TELLING | {"cycle"} if "duty" in heading.words else _TELLING
+    return tuple(word for word in heading.words if word not in telling)
 
 
 def _unit_in_brackets(name: str) -> tuple[str, str]:
@@ -221,9 +226,9 @@ def is_pulse_of_esc(words: tuple[str, ...]) -> bool:
 
 
 def _is_joint(words: tuple[str, ...]) -> bool:
-    """Whether a name is one of a joint's fields, as ROS has them: then yaw, pitch and roll are joints, not angles."""
+    """Whether a name is one of a joint's fields, as ROS has them, or its drive: yaw, pitch and roll are joints then."""
     others = WORDS[Quantity.OTHER] & set(words)
-    return bool(others) and others <= _AXES and bool(_JOINT_FIELDS & set(words))
+    return bool(others) and others <= AXES and bool(_OF_AXES & set(words))
 
 
 def _is_side(words: tuple[str, ...]) -> bool:

@@ -5,12 +5,12 @@ from numpy.typing import NDArray
 
 from motor_identification.logs.columns.behaviour.codes import find_codes
 from motor_identification.logs.columns.cautions import ROUNDED
-from motor_identification.logs.columns.drive import VOLTAGE_WORDS, Drive, duty_drive, voltage_drive
+from motor_identification.logs.columns.drive import Drive, duty_drive, voltage_drive
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.roles.roles import Roles
 from motor_identification.logs.columns.said import Pair, Said
-from motor_identification.logs.columns.vocabulary import Quantity
+from motor_identification.logs.columns.vocabulary import VOLTAGE_WORDS, Quantity
 from motor_identification.logs.csv.table import Table
 
 Floats = NDArray[np.float64]

@@ -47,6 +47,13 @@ TAILS = _row(
     "hastighet hastighed spænding spänning"
 )
 
+# What is written to a timer, or a share by its name; a command of another name may be in volts.
+SHARES = _row(
+    "duty pwm dutycycle throttle power шим 占空比 듀티 cyclique tastgrad tastverhältnis wypełnienie wypelnienie střída "
+    "strida doluluk umplere скважность effort esforço esforco esfuerzo"
+)
+VOLTAGE_WORDS = _row("voltage volt volts voltaje spannung tension tensión")
+
 # Earlier rows win: a target speed is no speed, a battery's voltage is not the motor's, a speed command is a reference.
 WORDS: dict[Quantity, frozenset[str]] = {
     Quantity.OTHER: _row(

@@ -42,6 +42,11 @@ Speed (furlongs/s) | speed         |       |
 tacho             | speed          |       |
 pitch_effort      | duty           |       |
 pitch_velocity    | speed          |       |
+yaw_duty_cycle    | duty           |       |
+pitch PWM         | duty           |       |
+roll_voltage      | voltage        |       |
+yaw_pwm_error     | other          |       |
+pitch_command     | other          |       |
 pitch rate        | other          |       |
 pitch_angle       | other          |       |
 leftSpeedRpm      | speed          | rpm   | left
