@@ -38,6 +38,7 @@ from motor_identification.logs.columns.speed_beside import (
     find_counted_position,
     find_summed_counts,
     tell_position_unit,
+    tell_speed_unit,
 )
 from motor_identification.logs.columns.turn_counts import say_turn_counts
 from motor_identification.logs.columns.vocabulary import MOVES, UNIT_BY_SPELLING, Quantity
@@ -166,9 +167,7 @@ def _motion(
     if _is_speed_called_angle(heading, said) and is_speed_by_drive(values, table.numbers(pair.voltage)):
         why = f"assumed: {pair.motion} is a unit alone, and a speed that follows {pair.voltage}"
         return Kind.SPEED, Unit(f"{heading.unit}/s", f"{why}; otherwise: --position {pair.motion}")
-    unit = _unit(heading, values, kind, said, period)
-    if kind is Kind.POSITION and not unit.name and stamps is not None:
-        unit = tell_position_unit(table, heading, stamps) or unit
+    unit = _unit(table, heading, kind, said, period, stamps)
     if unit.name == "count" and kind is Kind.POSITION and said.kind is None:
         kind = Kind.COUNT
     other = ASKED[Kind.POSITION if kind is Kind.SPEED else Kind.SPEED]
@@ -188,7 +187,7 @@ def _is_speed_called_angle(heading: Heading, said: Said) -> bool:
     return alone and said.kind is None and said.unit is None
 
 
-def _unit(heading: Heading, values: Floats, kind: Kind, said: Said, period: float) -> Unit:
+def _unit(table: Table, heading: Heading, kind: Kind, said: Said, period: float, stamps: Floats | None) -> Unit:
     if said.unit:
         return Unit(said.unit, f"1 V of it is taken for 1 {said.unit}" if is_in_volts(heading) else "")
     if kind is Kind.COUNT:
@@ -199,11 +198,15 @@ def _unit(heading: Heading, values: Floats, kind: Kind, said: Said, period: floa
         return Unit(ASKED[kind][0], "as ROS's joint states have them; otherwise: --unit")
     if is_in_volts(heading):
         return Unit("", "", ASKED[kind])  # its steps are those of an analogue-to-digital converter
+    values = table.numbers(heading.name)
     guessed = (
         guess_speed_unit(values, said.speed_window or period) if kind is Kind.SPEED else guess_position_unit(values)
     )
     if not guessed.name and "count" in guessed.candidates and said.edges_per_revolution not in (None, WHOLE_DEGREES):
         return Unit("count", "as the counts of a turn are said; otherwise: --unit")
+    if not guessed.name and stamps is not None:
+        tell = tell_speed_unit if kind is Kind.SPEED else tell_position_unit
+        guessed = tell(table, heading, stamps) or guessed
     if not guessed.name and said.motion and said.kind:
         return Unit(next(iter(UNITS[kind])), "assumed; otherwise: --unit")
     return guessed

@@ -2,12 +2,13 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from math import tau
 
 import numpy as np
 from numpy.typing import NDArray
 
 from motor_identification.logs.columns.clock import read_clock
-from motor_identification.logs.columns.heading import Heading, read_heading
+from motor_identification.logs.columns.heading import AXES, Heading, read_heading
 from motor_identification.logs.columns.movement import ASKED, Unit, guess_position_unit
 from motor_identification.logs.columns.said import Pair
 from motor_identification.logs.columns.vocabulary import UNITS, Quantity
@@ -26,6 +27,7 @@ MORE = 0.3  # than the position's way has
 USUAL_SHARE, JUMP = 0.9, 5.0  # of the steps of a position, and times that, from which on it is a jump
 SUMMED_UP = 0.9  # of the rows in motion: there a count goes on by just what another column says
 FEWEST_CHANGES = 10  # of a motion: what changes in fewer rows is a drive, or nothing
+TILTED = 0.25  # by which that of a gyro may be: its axis is tilted, or it is filtered. Measured: 0.1; units are 6 apart
 NEAR = 0.07  # by which the ratio of a pair of units may be off; the nearest two pairs are 5 times apart
 
 
@@ -122,6 +124,32 @@ def tell_position_unit(table: Table, position: Heading, stamps: Floats) -> Unit 
             if ratio is not None and _is_near(ratio * (UNITS[unit][1] or 1.0) / size):
                 return Unit(unit, f"as {name} in {speed.unit} says; otherwise: --unit")
     return None
+
+
+def tell_speed_unit(table: Table, speed: Heading, stamps: Floats) -> Unit | None:
+    """Tell the unit of a speed by the angle beside it of which it is the derivative; stamps [s] of the rows, (K,)."""
+    for name, unit in _list_angles(table, speed.side):
+        size = UNITS[unit][1] or 1.0
+        angle = np.unwrap(table.numbers(name) * size, period=tau) / size
+        ratio = _ratio(np.asarray(angle, np.float64), table.numbers(speed.name), stamps)
+        for own in (*ASKED[Kind.SPEED], "rev/s"):
+            if ratio is not None and abs(ratio * size / (UNITS[own][1] or 1.0) - 1.0) < TILTED:
+                return Unit(own, f"as {name} in {unit} says, whose derivative it is; otherwise: --unit")
+    return None
+
+
+def _list_angles(table: Table, side: str) -> Iterator[tuple[str, str]]:
+    """The angles of a side in a table, and their units: by their names, or by their numbers."""
+    for heading in map(read_heading, table.names):
+        orientation = heading.quantity is Quantity.OTHER and heading.words[-1:] and heading.words[-1] in AXES
+        if heading.side != side or not (orientation or heading.quantity is Quantity.POSITION):
+            continue
+        values = table.numbers(heading.name) if bool(table.readable(heading.name).all()) else np.zeros(1)
+        unit = heading.unit or guess_position_unit(values).name
+        if orientation and not unit and float(np.max(np.abs(values))) > tau:
+            unit = "deg"  # as no body is turned by more than a turn
+        if unit in ("rad", "deg", "rev"):
+            yield heading.name, unit
 
 
 def _unnamed(table: Table, taken: frozenset[str]) -> Iterator[Heading]:

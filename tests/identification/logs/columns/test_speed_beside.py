@@ -15,6 +15,7 @@ from motor_identification.logs.columns.speed_beside import (
     find_driven_speed,
     find_summed_counts,
     tell_position_unit,
+    tell_speed_unit,
 )
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import Kind
@@ -98,6 +99,47 @@ def test_a_known_speed_tells_the_unit_of_a_position(unit: str, size: float) -> N
     assert tell_position_unit(table(cells, vel="left_rpm"), read_heading("alpha"), STAMPS) is None
     (form,) = guess_forms(table(cells, vel="rpm", alpha="position"), Said()).forms
     assert (form.motion, form.unit) == ("position", unit)
+
+
+@pytest.mark.parametrize("unit", sorted(PER))
+def test_an_angle_tells_the_unit_of_its_derivative(unit: str) -> None:
+    """Yaw goes to 180° and on from -180°; a number of degrees beyond 2π is no radians."""
+    cells = {**log(unit), "alpha": (np.degrees(ANGLE) + 180.0) % 360.0 - 180.0}
+    found = tell_speed_unit(table(cells, alpha="yaw"), read_heading("vel"), STAMPS)
+    assert found is not None and found.name == unit
+    assert found.why == "as yaw in deg says, whose derivative it is; otherwise: --unit"
+    for other in ("yaw_error", "left_yaw", "alpha"):
+        assert tell_speed_unit(table(cells, alpha=other), read_heading("vel"), STAMPS) is None
+    (form,) = guess_forms(table(cells, alpha="yaw", vel="yaw_velocity"), Said(motion="yaw_velocity")).forms
+    assert (form.kind, form.unit) == (Kind.SPEED, unit)
+
+
+@pytest.mark.parametrize(("most", "told"), [(6.0, False), (6.5, True)])
+def test_an_orientation_beyond_a_turn_in_radians_is_in_degrees(most: float, told: bool) -> None:
+    cells = {**log("deg/s"), "alpha": ANGLE * most / np.max(np.abs(ANGLE))}
+    cells["vel"] = np.gradient(cells["alpha"], STAMPS)
+    found = tell_speed_unit(table(cells, alpha="yaw"), read_heading("vel"), STAMPS)
+    assert (found.name if found else None) == ("deg/s" if told else None)
+
+
+@pytest.mark.parametrize(("slip", "told"), [(0.77, True), (0.73, False)])
+def test_a_gyro_may_be_tilted(slip: float, told: bool) -> None:
+    cells = {**log("deg/s"), "vel": np.degrees(SPEED) / slip}
+    assert (tell_speed_unit(table(cells, alpha="theta_deg"), read_heading("vel"), STAMPS) is not None) is told
+
+
+def test_drives_of_axes_are_of_their_motors() -> None:
+    """A turret's two axes, each with a duty and a speed in deg/s beside an angle that is no motor's shaft."""
+    one = {"t": STAMPS, "yaw": np.degrees(ANGLE), "pitch": np.degrees(ANGLE[::-1].copy())}
+    speeds = {"yaw_velocity": np.degrees(SPEED), "pitch_velocity": np.degrees(-SPEED[::-1])}
+    drives = {"yaw_duty_cycle": DRIVE, "pitch_duty_cycle": -DRIVE[::-1]}
+    both = Table(Path("log.csv"), np.arange(2, 502), {**one, **speeds, **drives})
+    forms = guess_forms(both, Said(supply_voltage=12.0)).forms
+    assert {(form.label, form.voltage, form.motion, form.unit, form.voltage_scale) for form in forms} == {
+        (axis, f"{axis}_duty_cycle", f"{axis}_velocity", "deg/s", 12.0) for axis in ("yaw", "pitch")
+    }
+    with pytest.raises(RecordingError, match=r"yaw_duty_cycle as a duty of ±1 .*--supply-voltage V"):
+        guess_forms(both, Said(voltage="yaw_duty_cycle", motion="yaw_velocity"))
 
 
 def test_whole_positions_beside_a_speed_are_counts() -> None:
