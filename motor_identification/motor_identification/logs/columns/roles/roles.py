@@ -15,6 +15,7 @@ from motor_identification.logs.columns.behaviour.second_reading import (
     ends_of_a_loop,
     present_values,
     pulses_that_drive,
+    references_beside,
     speeds_called_v,
 )
 from motor_identification.logs.columns.clock import find_clock, read_clock, runs_forward, since_1970
@@ -64,6 +65,7 @@ def find_roles(table: Table, said: Said) -> Roles:
     free = ends_of_a_loop(
         [one for one in others if one.quantity is not None or not _numbers_rows(table, one.name, time)]
     )
+    free = references_beside(free)
     free = free if said.motion else leave_out_parameters(table, free)
     free = commands_beside_control(table, leave_out_idle_efforts(table, free))
     free = share_one_drive(

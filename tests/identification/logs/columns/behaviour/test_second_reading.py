@@ -93,6 +93,44 @@ def test_v_beside_what_is_no_motion_is_the_velocity(beside: dict[str, np.ndarray
         find_roles(log, Said())
 
 
+def sine_driven(tau: float, rough: float) -> Table:
+    """A sine of 1 Hz, and two speeds of a motor with this time constant [s], or the voltage itself for 0."""
+    drive = 3.0 * np.sin(2.0 * np.pi * TIME)
+    phase = np.arctan(2.0 * np.pi * tau)
+    noise = np.random.default_rng(4).normal(0.0, rough, (2, 200))
+    one, other = 5.0 * np.cos(phase) * np.sin(2.0 * np.pi * TIME - phase) + noise
+    return log_columns.columns(t=TIME, u=drive, v1=one, v2=other)
+
+
+@pytest.mark.parametrize(("tau", "rough", "moves"), [(0.06, 0.1, True), (0.03, 0.1, False), (0.0, 1.0, False)])
+def test_v_under_a_sine_is_the_velocity_where_it_goes_its_own_way(tau: float, rough: float, moves: bool) -> None:
+    """It is late by more than a measured voltage could be, which may be noisy besides."""
+    log = sine_driven(tau, rough)
+    if moves:
+        assert find_roles(log, Said()).pairs == (Pair("1", "u", "v1"), Pair("2", "u", "v2"))
+        assert find_roles(log, Said(motion="v2")).pairs == (Pair("", "u", "v2"),)
+        return
+    with pytest.raises(RecordingError, match="which column is the motion"):
+        find_roles(log, Said())
+
+
+def test_a_voltage_that_sags_and_comes_some_rows_late_is_no_velocity() -> None:
+    log = sine_driven(0.0, 0.0)
+    volts = np.roll(log.numbers("u"), 2)
+    volts *= 1.0 - 0.2 * np.abs(volts) / 3.0
+    with pytest.raises(RecordingError, match="which column is the motion"):
+        find_roles(log_columns.columns(t=TIME, u=log.numbers("u"), v=volts), Said())
+
+
+def test_a_name_with_an_r_behind_that_of_a_motion_is_its_reference() -> None:
+    assert find_roles(table(t="t", u="u", x="y", xr="n"), Said()).pairs == (Pair("", "u", "x"),)
+    assert find_roles(table(t="t", u="u", theta="y", rtheta="r"), Said()).pairs == (Pair("", "u", "theta"),)
+    for others in ({"xl": "n"}, {"lx": "n"}):  # left and right
+        with pytest.raises(RecordingError, match="one of x, xr"):
+            find_roles(table(t="t", u="u", x="y", xr="n", **others), Said())
+    assert find_roles(table(t="t", u="u", xr="y"), Said()).pairs == (Pair("", "u", "xr"),)
+
+
 def test_v_is_the_velocity_of_a_position_beside_it() -> None:
     drive = np.repeat([3.0, -2.0, 5.0, 1.0], 50)
     speed = answer(drive)
