@@ -23,6 +23,7 @@ from motor_identification.logs.columns.increments import count_anew
 from motor_identification.logs.columns.motor_drive import read_drive
 from motor_identification.logs.columns.movement import (
     ASKED,
+    SLIDES,
     Unit,
     guess_kind,
     guess_position_unit,
@@ -44,6 +45,7 @@ from motor_identification.logs.columns.turn_counts import say_turn_counts
 from motor_identification.logs.columns.vocabulary import MOVES, UNIT_BY_SPELLING, Quantity
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import LENGTHS, UNITS, CsvForm, Kind, time_unit_size
+from motor_identification.logs.rows.drive.constant_voltage import CONSTANT
 
 Floats = NDArray[np.float64]
 
@@ -219,6 +221,8 @@ def _ask_about(column: str, values: Floats, kind: Kind, unit: Unit, said: Said, 
         notes.questions.append((column, f"is a voltage: {of_which}; of an encoder's pulses, log their count instead"))
     elif not unit.name:
         options = f"{', '.join(unit.candidates[:-1])} or {unit.candidates[-1]}"
+        if set(ASKED[kind]) <= set(unit.candidates):
+            options += f", or of a slide in {SLIDES[kind]}"
         counted = kind is Kind.SPEED and not np.any(values % 1.0)
         counts = f", or --count {column} where they are the counts of each row" if counted else ""
         notes.questions.append((column, f"in {options}, which the numbers do not tell: say --unit{counts}"))
@@ -235,6 +239,8 @@ def _ask_for_times(table: Table, pair: Pair, kind: Kind, notes: Notes) -> None:
     times = "and no column is its times: say --time COL, or --sample-period S where the rows are S seconds apart"
     if kind is not Kind.SPEED:
         notes.questions.append((pair.motion, f"is a {kind.value}, {times}"))
+    elif pair.voltage == CONSTANT:
+        notes.questions.append((pair.motion, f"moves under one voltage, {times}; or --steady"))
     elif share_of_changes(table.numbers(pair.voltage)) < STEPS_BETWEEN:
         notes.questions.append((pair.voltage, f"stays from row to row, {times}; or --steady"))
     elif goes_to_and_fro(table.numbers(pair.voltage)):

@@ -26,6 +26,7 @@ FEWEST_MAGNETS = 3  # counts a turn of a sensor that may be meant where steps ar
 FORGETS = 5.0  # time constants in a recording, from which on a column is a speed: a position forgets nothing
 UNSURE = (1.0, 20.0)  # time constants that a column of either may seem to have
 ASKED = {Kind.SPEED: ("rad/s", "deg/s", "rpm"), Kind.POSITION: ("rad", "deg", "rev", "count")}
+SLIDES = {Kind.SPEED: "mm/s or m/s", Kind.POSITION: "mm or m"}  # what moves along, and of no turn
 
 
 @dataclass(frozen=True)

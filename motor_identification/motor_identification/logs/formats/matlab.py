@@ -26,10 +26,10 @@ SAVE_THEM = "save their Time and Data as vectors (t = y.Time; y = y.Data)"
 MOST_COLUMNS = 64  # of a matrix of signals: a wider one is a picture or a model
 
 
-def read_matlab(path: Path, wanted: Collection[str] = ()) -> Table:
+def read_matlab(path: Path, wanted: Collection[str] = (), fewest: int = 2) -> Table:
     """The vectors of one length by name; a struct's fields as `struct.field`.
 
-    Of several lengths, those that the user said (`wanted`), then what `choose_columns` finds.
+    Of several lengths, those that the user said (`wanted`), then what `choose_columns` finds: so many (`fewest`).
 
     Raises:
         RecordingError: the file is damaged, too large, or has no two vectors of one length.
@@ -56,7 +56,7 @@ def read_matlab(path: Path, wanted: Collection[str] = ()) -> Table:
     except BrokenFileError as error:
         kind, cure = _KINDS[read]
         raise RecordingError(f"{path} is a damaged {kind} file ({error}): {cure}.") from error
-    if objects and len(vectors) < 2:
+    if objects and len(vectors) < fewest:
         raise RecordingError(f"{path} holds {OBJECTS}, which only MATLAB reads: {SAVE_THEM}.")
     signals = {name: vector for name, vector in vectors.items() if len(vector) >= 2}
     if not signals:
@@ -64,8 +64,11 @@ def read_matlab(path: Path, wanted: Collection[str] = ()) -> Table:
     lengths = {len(vector) for vector in signals.values()}
     groups = {n: _share_clock({name: one for name, one in signals.items() if len(one) == n}) for n in lengths}
     fitting = choose_columns(groups, wanted)
-    if len(fitting) < 2:
-        raise RecordingError(f"{path} has no two vectors of one length: save time, voltage and motion with one.")
+    if len(fitting) < fewest:
+        raise RecordingError(
+            f"{path} has no two vectors of one length: save time, voltage and motion with one; or, where its only one "
+            "is the motion under one voltage, say --constant-voltage V, and --sample-period S from row to row."
+        )
     length = len(next(iter(fitting.values())))
     told = {name: vector for name, vector in vectors.items() if len(vector) == 1 and tells_how_often(name)}
     fitting.update({name: np.full(length, vector[0]) for name, vector in told.items() if name not in fitting})

@@ -73,7 +73,8 @@ def _read_other(path: Path, head: bytes, said: Said) -> Source:
             raise RecordingError(f"{path} is {cure}.")
     for is_format, name in _OF_VARIABLES:
         if is_format(head):
-            return Source(read_matlab(path, said.columns()), name)
+            fewest = 2 if said.constant_voltage is None else 1  # the motion alone
+            return Source(read_matlab(path, said.columns(), fewest), name)
     if head.startswith(LABVIEW):
         return Source(read_lvm(path), "file of LabVIEW (LVM)")
     if head.startswith(LETTERS):

@@ -163,6 +163,7 @@ def test_units_of_both_kinds_are_asked_for_where_the_numbers_tell_neither(rows: 
     make_form(table, Pair("", "u", motion), Roles("t", (), None, None), Said(), ROWS, notes)
     (question,) = [text for column, text in notes.questions if column == motion]
     assert ("rad/s" in question and "rev" in question) == either
+    assert ", or of a slide in mm" in question
 
 
 def test_joint_states_are_in_radians() -> None:

@@ -47,8 +47,9 @@ def test_what_has_no_vectors(tmp_path: Path) -> None:
     with pytest.raises(RecordingError, match="has no vectors of numbers"):
         read_matlab(tmp_path / "log.mat")
     savemat(tmp_path / "log.mat", {"a": TIME})
-    with pytest.raises(RecordingError, match="has no two vectors of one length"):
+    with pytest.raises(RecordingError, match="has no two vectors of one length.* --constant-voltage V, and --sample-p"):
         read_matlab(tmp_path / "log.mat")
+    assert read_matlab(tmp_path / "log.mat", fewest=1).names == ["a"]
 
 
 def test_damage_is_a_sentence(tmp_path: Path) -> None:

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.io import savemat
 
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.csv.table import Table
@@ -74,3 +75,16 @@ def test_a_log_that_begins_before_its_step(tmp_path: Path, position: bool) -> No
     came = int(np.argmax(volts))
     assert set(volts) == {0.0, 9.0} and 98 <= came <= 101 and np.all(volts[came:] == 9.0)
     assert any("stands in the first 10" in line for line in imported.motors[0].log.findings)
+
+
+def test_the_motion_alone_is_a_log_of_one_voltage(tmp_path: Path) -> None:
+    path = tmp_path / "log.mat"
+    savemat(path, {"MotorA": 50.0 * (1.0 - np.exp(-np.arange(100) / 20.0))})
+    with pytest.raises(RecordingError, match="no two vectors of one length.* say --constant-voltage V, and --sample-"):
+        import_log(path, Said())
+    asked = r"MotorA moves under one voltage, and no column is its times: say --time COL, or --sample-period S"
+    with pytest.raises(RecordingError, match=asked):
+        import_log(path, Said(constant_voltage=5.5, unit="rpm"))
+    (motor,) = import_log(path, Said(constant_voltage=5.5, sample_period=0.01, unit="rpm")).motors
+    (run,) = motor.log.runs
+    assert len(run.samples) == 100 and {sample.voltage for sample in run.samples} == {5.5}
