@@ -70,7 +70,7 @@ def read_motor(table: Table, form: CsvForm) -> Log:
     info = Info(
         name=form.name,
         source="import",
-        single_channel=False,  # such logs have signs
+        single_channel=False,  # such logs have signs, unless their counts show that they have none
         edge_resolution=0.0,  # and no stamps
         max_voltage=_max_voltage(form, signals),
         gear_ratio=float(form.gear) if form.gear != 1 else 0.0,
@@ -151,7 +151,8 @@ def _counted_speeds(motion: Motion) -> Iterator[tuple[Floats, Floats]]:
     signals = motion.signals
     if motion.info.measurement is Measurement.COUNTS:
         for rows in signals.runs.values():
-            yield signals.voltage[rows][1:], np.diff(motion.counts[rows]) / np.diff(signals.time[rows])
+            ways = np.sign(motion.speed[rows][1:]) if motion.info.single_channel else 1.0
+            yield signals.voltage[rows][1:], ways * np.diff(motion.counts[rows]) / np.diff(signals.time[rows])
 
 
 def _hold(signals: Signals, before: bool) -> Floats:

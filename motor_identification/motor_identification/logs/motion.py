@@ -10,6 +10,7 @@ from motor_identification.logs.form import LENGTHS, CsvForm, Kind
 from motor_identification.logs.position_lattice import LEAST_LEVELS, ON_GRID, printed_digit
 from motor_identification.logs.rows.bursts import cut_stalls
 from motor_identification.logs.rows.count_rate import count_rates
+from motor_identification.logs.rows.drive.one_channel import ONE_CHANNEL, find_ways
 from motor_identification.logs.rows.flicker import remove_flicker
 from motor_identification.logs.rows.resets import split_at_resets
 from motor_identification.logs.rows.row_lengths import divide_by_own_rows
@@ -172,7 +173,8 @@ def _check_steps(form: CsvForm, values: Floats, edges: int, count: float) -> Non
 def _counts(form: CsvForm, info: Info, signals: Signals) -> Motion:
     levels = signals.motion
     signals, wrapped = unwrap(signals, form)
-    signals, turned = (signals, []) if form.signs_as_they_are else turn_round(signals, is_speed=False)
+    one_channel = not form.signs_as_they_are and find_ways(signals) is not None
+    signals, turned = (signals, []) if form.signs_as_they_are or one_channel else turn_round(signals, is_speed=False)
     count = count_size(form, signals.motion, signals.voltage, levels if wrapped else None)
     largest = float(np.max(np.abs(signals.motion))) / count.size
     if not largest < LARGEST_COUNT:
@@ -188,14 +190,18 @@ def _counts(form: CsvForm, info: Info, signals: Signals) -> Motion:
     beside = float(np.max(np.abs(exact - counts))) - rounded
     counts, flicker = remove_flicker(signals, counts) if form.kind is Kind.POSITION else (counts, [])
     rate, held = count_rates(signals, counts)
-    speed = rate * edge_angle(count.edges, count.gear)
-    info = replace(info, measurement=Measurement.COUNTS, edges_per_revolution=count.edges)
+    ways = find_ways(signals) if one_channel else None
+    speed = rate * edge_angle(count.edges, count.gear) * (1.0 if ways is None else ways)
+    info = replace(
+        info, measurement=Measurement.COUNTS, edges_per_revolution=count.edges, single_channel=ways is not None
+    )
     if count.gear != 1:
         info = replace(info, gear_ratio=float(count.gear))
     per_turn = f"{count.edges}" if count.per_turn == count.edges else f"{count.per_turn:.6g}"
     findings = [
         *wrapped,
         *turned,
+        *([] if ways is None else [ONE_CHANNEL.format(form.motion)]),
         *stalled,
         *reset,
         f"Sampled counts without time stamps: one count is {count.size:.6g} {form.unit}, {per_turn} per "

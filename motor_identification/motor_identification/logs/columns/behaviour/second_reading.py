@@ -55,8 +55,9 @@ def _is_present(heading: Heading) -> bool:
 def speeds_called_v(table: Table, headings: list[Heading]) -> list[Heading]:
     """`v` beside what drives, where nothing else moves or could, is the velocity: it changes where the drive stays.
 
-    A voltage that was measured changes as the duty does. Beside a drive that never stays, it goes its own way. What changes in a few rows, as the number of a part, and the
-    velocity's own acceleration could not be the motion. Beside a position it is the velocity if it is its derivative.
+    A voltage that was measured changes as the duty does. Beside a drive that never stays, it goes its own way. What
+    changes in a few rows, as the number of a part, and the velocity's own acceleration could not be the motion. Beside
+    a position it is the velocity if it is its derivative.
     """
     called = [one for one in headings if one.quantity is Quantity.VOLTAGE and not one.unit and "v" in one.words]
     others = [one for one in headings if drives(one) and one not in called]

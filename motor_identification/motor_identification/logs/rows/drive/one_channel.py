@@ -1,0 +1,105 @@
+"""Tell counts of one channel, which rise whichever way the motor turns, and which way it turned as it was driven.
+
+A motor follows its voltage as a first-order lag. Where counts only rise while the voltage goes both ways, either it
+never turned back, as under a load or a brake, and went the slower the lower the voltage was; or what was counted is how
+far it went either way, and it was as fast under either sign. A fit of the motor then reads directions again
+(`estimation/direction_correction.py`).
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+from scipy.signal import lfilter
+
+from motor_identification.logs.signals import Bools, Floats, Integers, Signals
+
+FEWEST = 50  # rows that tell
+EITHER_WAY = 0.05  # of the counts, that a motor makes each way: fewer are those of one that hardly turned back
+BETTER = 0.5  # of what is left of the counts by a motor that turns one way only, if it is to turn both
+A_PART = 4.0  # counts, as usual, in each of the parts of a run that are compared: of fewer, rounding hides the motion
+FEWEST_PARTS = 20
+ONE_CHANNEL = (
+    "Caution: {} only rises while the voltage changes its sign, and as fast under either: it counts one channel, and "
+    "the direction is not in it. The motor is taken to turn as it is driven, and a fit reads the directions again by "
+    "its motion (assumed; better: log a count of both channels)."
+)
+LAGS = 24  # time constants that are tried, from a row to a quarter of the longest run, evenly by their logarithm
+
+
+def find_ways(signals: Signals) -> Floats | None:
+    """Find which way a motor turned in each row, 1 or -1, shape (K,), whose counts only rise; None where they tell it.
+
+    Args:
+        signals: with counts, or an angle that was counted, as motion.
+    """
+    counted = [np.diff(signals.motion[run]) for run in signals.runs.values()]
+    rises = all(bool(np.all(steps >= 0.0)) for steps in counted) and any(bool(np.any(steps)) for steps in counted)
+    if len(signals) < FEWEST or not rises or not np.min(signals.voltage) < 0.0 < np.max(signals.voltage):
+        return None
+    best_way, both, one_way = None, 1.0, 1.0
+    for driven in _lag_voltage(signals):
+        both_left, one_way_left = _compare(signals, driven)
+        one_way = min(one_way, one_way_left)
+        if both_left < both:
+            best_way, both = np.where(driven < 0.0, -1.0, 1.0), both_left
+    if best_way is None or not both < BETTER * one_way or not _turns_both_ways(signals, best_way):
+        return None
+    return np.asarray(best_way, np.float64)
+
+
+def _lag_voltage(signals: Signals) -> Iterator[Floats]:
+    """Lag the voltage (K,) as motors of several time constants follow it, each from rest."""
+    longest = max(run.stop - run.start for run in signals.runs.values())
+    for rows in np.geomspace(1.0, max(0.25 * longest, 2.0), LAGS):
+        keep, driven = float(np.exp(-1.0 / rows)), np.zeros(len(signals))
+        for run in signals.runs.values():
+            driven[run.start + 1 : run.stop] = lfilter([1.0 - keep], [1.0, -keep], signals.voltage[run][:-1])
+        yield driven
+
+
+def _compare(signals: Signals, driven: Floats) -> tuple[float, float]:
+    """Compare counts with what drives both ways, and one way only: the shares of their variance that are left."""
+    moved, held = np.zeros(len(signals)), np.zeros(len(signals))
+    for run in signals.runs.values():
+        moved[run.start + 1 : run.stop] = np.diff(signals.motion[run])
+        held[run.start + 1 : run.stop] = np.diff(signals.time[run])
+    parts = _part(moved)
+    lengths = np.add.reduceat(held, parts)
+    if np.count_nonzero(lengths) < FEWEST_PARTS:
+        return 1.0, 1.0
+    told = lengths > 0.0
+
+    def leave(way: Floats) -> float:
+        counted, should = (np.add.reduceat(each, parts)[told] / lengths[told] for each in (moved, way * held))
+        return _leave(counted, should)
+
+    braked = (np.maximum(driven, 0.0), np.maximum(-driven, 0.0))
+    return leave(np.abs(driven)), min(map(leave, (driven, *braked)))
+
+
+def _part(moved: Floats) -> Integers:
+    """Part rows (K,) by how many counts they have, as usual: the first row of every part."""
+    usual = float(np.mean(moved)) / _one_count(moved)
+    return np.arange(0, len(moved), max(1, int(np.ceil(A_PART / usual))), dtype=np.int64)
+
+
+def _one_count(moved: Floats) -> float:
+    """The size of one count, or of what rises least."""
+    return float(np.min(moved[moved > 0.0]))
+
+
+def _leave(rate: Floats, by: Floats) -> float:
+    """The share of a variance, shape (P,), that another column leaves of it."""
+    rate, by = rate - np.mean(rate), by - np.mean(by)
+    size = float(rate @ rate) * float(by @ by)
+    return 1.0 - float(rate @ by) ** 2 / size if size > 0.0 else 1.0
+
+
+def _turns_both_ways(signals: Signals, way: Floats) -> bool:
+    """Whether a motor made enough of its counts in either way, shape (K,)."""
+    back = whole = 0.0
+    for run in signals.runs.values():
+        steps: Floats = np.diff(signals.motion[run])
+        turned: Bools = way[run][1:] < 0.0
+        back, whole = back + float(np.sum(steps[turned])), whole + float(np.sum(steps))
+    return EITHER_WAY * whole <= back <= (1.0 - EITHER_WAY) * whole
