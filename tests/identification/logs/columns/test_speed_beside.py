@@ -1,5 +1,6 @@
 """What a position and a speed of the same shaft tell of each other."""
 
+from dataclasses import replace
 from math import pi, radians
 from pathlib import Path
 
@@ -140,6 +141,9 @@ def test_drives_of_axes_are_of_their_motors() -> None:
     }
     with pytest.raises(RecordingError, match=r"yaw_duty_cycle as a duty of ±1 .*--supply-voltage V"):
         guess_forms(both, Said(voltage="yaw_duty_cycle", motion="yaw_velocity"))
+    for said in (Said(voltage="pitch_duty_cycle"), Said(motion="pitch_velocity")):  # of the axis that is named
+        (form,) = guess_forms(both, replace(said, supply_voltage=12.0)).forms
+        assert (form.voltage, form.motion) == ("pitch_duty_cycle", "pitch_velocity")
 
 
 def test_whole_positions_beside_a_speed_are_counts() -> None:

@@ -20,7 +20,7 @@ from motor_identification.logs.columns.behaviour.second_reading import (
 )
 from motor_identification.logs.columns.clock import find_clock, read_clock, runs_forward, since_1970
 from motor_identification.logs.columns.drive import drives, leave_out_idle_efforts
-from motor_identification.logs.columns.heading import Heading, read_heading
+from motor_identification.logs.columns.heading import Heading, read_heading, words_besides
 from motor_identification.logs.columns.roles.candidates import is_numeric
 from motor_identification.logs.columns.roles.drive_column import find_drive_column, find_supply_column
 from motor_identification.logs.columns.roles.motion_column import find_motion_column
@@ -187,9 +187,18 @@ def _single(table: Table, headings: Sequence[Heading], said: Said, time: str | N
     if not voltage and not motion and (channels := pair_channels(table, rest)):
         return channels
     side = read_heading(motion or voltage).side  # of two motors, the one that was named
+    rest = _of_its_name(rest, read_heading(motion or voltage)) if motion or voltage else rest
     motion = motion or find_motion_column(table, rest, side, time, said.unit)
     voltage = voltage or find_drive_column(table, _besides(table, rest, motion), side, ("",))
     return Pair("", voltage, motion)
+
+
+def _of_its_name(headings: Sequence[Heading], named: Heading) -> list[Heading]:
+    """The columns without the drives or motions of others, where one has the words of the one that was named."""
+    wanted = (Quantity.VOLTAGE, Quantity.DUTY) if named.quantity in MOVES else tuple(MOVES)
+    words, able = words_besides(named), [one for one in headings if one.quantity in wanted]
+    own = [one for one in able if words and words_besides(one) == words]
+    return [one for one in headings if one in own or one not in able] if own else list(headings)
 
 
 def _besides(table: Table, headings: Sequence[Heading], motion: str) -> list[Heading]:
