@@ -28,6 +28,8 @@ SURE_LACKING = 0.1
 MEDIAN_ERROR = 1.25  # standard errors of a mean that a median has
 MOST_NEIGHBOURS = 100  # which a lateness of 0.56 rows takes; beyond, no lacking row is told
 MOST_LACKING = 0.02, 300  # of the rows, and rows
+# Rows that a step is longer than, as usual, and is a gap: what a board, or a link, did meanwhile no clock says.
+LONGEST = 5.0
 LEAST_RUN_AWAY = 1e-4  # of a row: less is an even clock
 # Of what a clock was estimated to run away, beside none: lateness that is not white looks like running away.
 RUN_AWAY = (0.25, 0.5, 1.0)
@@ -43,9 +45,11 @@ class Clock(NamedTuple):
 def lay_clocks(stamps: Floats) -> list[Clock]:
     """Lay clocks through stamps [s], shape (K,), the most even first; none where they are on one, or late on none.
 
+    Nor where more is missing in gaps than may be lacking: a clock through those smears them over the rows beside.
+
     The first is even, but for rows that are lacking, where stamps look like that; a loop that runs away does, too.
     """
-    if len(stamps) < LEAST_ROWS:
+    if len(stamps) < LEAST_ROWS or _is_torn(stamps):
         return []
     row = np.arange(len(stamps), dtype=np.float64)
     slope, begin = np.polyfit(row, stamps, 1)
@@ -61,6 +65,13 @@ def lay_clocks(stamps: Floats) -> list[Clock]:
         laid.insert(0, (0.0, np.polyval(np.polyfit(row + lacking, stamps, 1), row + lacking)))
     clocks = [Clock(share, np.asarray(time, np.float64)) for share, time in laid if np.min(np.diff(time)) > 0.0]
     return [clock for clock in clocks if _is_near(clock.time, stamps, late, slope)]
+
+
+def _is_torn(stamps: Floats) -> bool:
+    """Decide whether stamps [s] (K,) have more time in gaps than rows may be lacking."""
+    steps = np.diff(stamps)
+    usual = float(np.mean(steps))
+    return float(np.sum(steps[steps > LONGEST * usual] - usual)) > MOST_LACKING[0] * len(stamps) * usual
 
 
 def _is_near(clock: Floats, stamps: Floats, late: float, slope: float) -> bool:

@@ -52,6 +52,15 @@ def test_the_later_rows_are_the_more_of_them_tell_a_lacking_one() -> None:
     assert np.ptp(np.diff(lay_clocks(stamps)[0].time)) < 1e-12  # so late that one row does not show
 
 
+@pytest.mark.parametrize(("gaps", "laid"), [(1, True), (2, False)])
+def test_a_clock_is_not_laid_through_gaps(gaps: int, laid: bool) -> None:
+    """Of 800 rows, 16 may be lacking: a gap of ten rows says that, two are pauses, which no clock goes through."""
+    stamps = PERIOD * np.arange(ROWS) + 0.2 * PERIOD * np.random.default_rng(7).random(ROWS)
+    for place in range(gaps):
+        stamps[300 * (place + 1) :] += 10.0 * PERIOD
+    assert bool(lay_clocks(stamps)) is laid
+
+
 def test_exact_stamps_and_few_have_none() -> None:
     even = PERIOD * np.arange(ROWS)
     assert lay_clocks(even) == [] and lay_clocks(np.zeros(ROWS)) == []
