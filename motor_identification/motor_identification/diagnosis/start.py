@@ -40,7 +40,8 @@ def begin(
 def fit_known(recordings: Sequence[Recording], request: Request, hold_out: HoldOut) -> tuple[Selection, SearchReport]:
     """Fit the model to begin with to what is not held out, searched globally."""
     known = normalised(request.effects)
-    whole = make_problem(recordings, drop_periodic_effects(known), request.workers, hold_out.problem.stopped)
+    effects, stopped = drop_periodic_effects(known), hold_out.problem.stopped
+    whole = make_problem(recordings, effects, request.workers, stopped, thin=True)
     estimate, search = search_globally(hold_out.restrict(whole), request.search)
     single = estimate.on(replace(estimate.problem, workers=1))  # effects are tried at a time instead
     return begin_selection(add_periodic_effects(single, known), hold_out, request.workers), search

@@ -151,8 +151,8 @@ def make_hold_out(
         RecordingError: a recording has no usable motion.
     """
     if validation:
-        return OtherRecordings(make_problem(validation, (), stopped=stopped), TimeBlocks(2))
-    problem = make_problem(recordings, (), stopped=stopped)
+        return OtherRecordings(make_problem(validation, (), stopped=stopped, thin=True), TimeBlocks(2))
+    problem = make_problem(recordings, (), stopped=stopped, thin=True)
     swings = [measure_swings(recording) for recording in recordings]
     every = sum(float(part.sum()) for part in swings)
     tried = [TimeBlocks(4, stretch) for stretch in STRETCHES]
