@@ -15,6 +15,7 @@ from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import fits_torque
 from motor_identification.diagnosis.effect_test import sort_by_table
 from motor_identification.diagnosis.evidence.line_evidence import adds_only_lines
+from motor_identification.diagnosis.evidence.sensor_lag import may_lag
 from motor_identification.diagnosis.evidence.static_evidence import find_untold
 from motor_identification.diagnosis.result import Diagnosis, Verdict
 from motor_identification.diagnosis.selection.backward_elimination import eliminate_backward
@@ -85,6 +86,7 @@ def diagnose(
         start.search,
         lambda: perf_counter() - begun,
         selected.undetermined,
+        may_lag(first.recordings, start.recordings),
     )
     found = replace(found, model=replace(found.model, timing=start.timing))
     if not selected.finished:

@@ -11,6 +11,7 @@ from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis.result import Verdict
 from motor_identification.identify import Request, identify
 from motor_identification.recording import check
+from motor_identification.reporting.diagnosis_text import summarize_diagnosis
 
 
 @pytest.mark.slow
@@ -33,11 +34,13 @@ def test_friction_is_named_beside_white_noise_and_nothing_where_there_is_none() 
 
 
 def test_a_sensor_that_is_held_and_late_is_a_delay() -> None:
-    """Frames of 20 ms, 80 ms late, in a log of 5 ms; a motor with a time constant of 0.3 s."""
+    """Frames of 20 ms, 80 ms late, in a log of 5 ms; a motor with a time constant of 0.3 s. Or the motor is late."""
     log = check(held_late(noisy(0.3, ka=0.02), rows=4, late=16))
     found = diagnose([log])
     named = {one.effect: one.parameters for one in found.findings}
-    assert set(named) == {"coulomb_friction", "transport_delay"} and found.verdict is Verdict.EXPLAINED
+    assert set(named) == {"coulomb_friction", "transport_delay"} and found.verdict is Verdict.UNDECIDED
+    assert [one.sensor_may_lag for one in found.findings] == [one == "transport_delay" for one in named]
+    assert "or the speeds were smoothed or late before they were logged" in summarize_diagnosis(found)
     assert 0.079 < named["transport_delay"]["delay"][0] < 0.081
     assert 0.47 < named["coulomb_friction"]["ks"][0] < 0.53
     assert "gives a new speed every 20 ms" in found.model.notes[0]

@@ -44,6 +44,7 @@ class Finding:
     alternatives: tuple[Alternative, ...]  # best first
     ambiguous_with: tuple[str, ...]  # effects that explain as much in this recording
     suggested_experiment: str  # a profile that would tell them apart; empty if none is needed
+    sensor_may_lag: bool = False  # a lag that speeds leave, too, which were smoothed or late before they were logged
 
     @property
     def has_size(self) -> bool:

@@ -18,7 +18,7 @@ from motor_identification.recording import Recording
 from motor_identification.uncertainty.identifiability import suggest_profile
 from motor_identification.uncertainty.result import Fit
 from motor_identification.uncertainty.summary import summarise_fit
-from motor_model.effects import EFFECT_BY_NAME
+from motor_model.effects import EFFECT_BY_NAME, LAGS
 
 
 def conclude(
@@ -29,16 +29,19 @@ def conclude(
     search: SearchReport,
     elapsed: Callable[[], float],
     undetermined: tuple[str, ...] = (),
+    sensor_may_lag: bool = False,
 ) -> Diagnosis:
     """Conclude a diagnosis; `search` is that of the first fit, `elapsed` [s] since the diagnosis began.
 
-    undetermined: effects one of which may be missing, though the recordings determine nothing of it.
+    undetermined: effects one of which may be missing, though the recordings determine nothing of it. sensor_may_lag:
+    whether what makes the motion late may be of a sensor that nobody described.
     """
     last = selection.model
     base = base if selection.steps else last  # the same effects: one gap, not one of either fit
     model = summarise_fit(last.whitened, search, elapsed)
     gaps = _list_gaps(selection)
     findings, hidden = _list_findings(selection, model, gaps), find_undetectable(last)
+    findings = doubt_lags(findings) if sensor_may_lag else findings
     verdict, suggestion = decide(findings, selection, hidden, undetermined)
     return Diagnosis(
         verdict=verdict,
@@ -65,6 +68,11 @@ def conclude(
         undetermined=undetermined,
         gain_scatter=last.errors.gain,
     )
+
+
+def doubt_lags(findings: Sequence[Finding]) -> tuple[Finding, ...]:
+    """Doubt of findings those that make a motion late: speeds that were smoothed or late before the log do so, too."""
+    return tuple(replace(one, sensor_may_lag=one.effect in LAGS) for one in findings)
 
 
 def leave_out_named(hidden: Sequence[str], findings: Sequence[Finding], undetermined: Sequence[str]) -> tuple[str, ...]:
@@ -158,7 +166,7 @@ def decide(
     unclear = next((finding.suggested_experiment for finding in findings if finding.ambiguous_with), "")
     if not complete and last.held.confirms:
         return Verdict.UNEXPLAINED, unclear or ("rich" if hidden else "")
-    if unclear:
+    if unclear or any(finding.sensor_may_lag for finding in findings):  # of a sensor no experiment tells more
         return Verdict.UNDECIDED, unclear
     if not findings and complete and find_ignored(last.held) is not None:
         return Verdict.UNDECIDED, ""  # no experiment tells more before its columns belong together

@@ -71,5 +71,6 @@ def _finding_to_json(one: Finding) -> dict[str, Any]:
             {"effect": other.effect, "gap_after": to_number(other.gap_after)} for other in one.alternatives
         ],
         "ambiguous_with": list(one.ambiguous_with),
+        "sensor_may_lag": one.sensor_may_lag,
         "suggested_experiment": one.suggested_experiment or None,
     }

@@ -24,6 +24,10 @@ SEEN = (
     "The command changes too seldom to hold any of it out: this gap is of the motion that was fitted; --validate BAG "
     "tests it on another."
 )
+OF_SENSOR = "the speeds were smoothed or late before they were logged"
+DESCRIBE_SENSOR = (
+    "Log the encoder's counts, or say how the speeds were made (--speed-window and --speed-lag of an import)."
+)
 UNMODELLED = "Check for a load, a supply or a sensor that was not recorded; the report shows the residual torque."
 
 STRUCTURE_NAMES = {
@@ -141,18 +145,28 @@ def _describe_nearest(diagnosis: Diagnosis) -> str:
 
 def _describe_findings(diagnosis: Diagnosis) -> str:
     """Say what is missing, what of it has no determined size, and what this recording cannot distinguish."""
-    clear = [one for one in diagnosis.findings if not one.ambiguous_with]
+    clear = [one for one in diagnosis.findings if not (one.ambiguous_with or one.sensor_may_lag)]
     vague = list_vague(clear)
     sized = [one for one in clear if one not in vague]
     sure = diagnosis.after.confirms
     parts = [f"{_describe_found(sized, sure)}."] if sized else []
     parts += [f"{_describe_found(vague, sure=False)}; this recording does not tell how much."] if vague else []
+    missing = "is missing" if sure else "may be missing"
     for one in diagnosis.findings:
-        if one.ambiguous_with:
+        if one.ambiguous_with or one.sensor_may_lag:
             names = join_names([effect_name(name) for name in (one.effect, *one.ambiguous_with)], "or")
-            missing = "is missing" if sure else "may be missing"
-            parts.append(f"{capitalize(names)} {missing}; this recording cannot distinguish them.")
+            parts.append(f"{capitalize(names)} {missing}{_describe_rival_sensor(one)}.")
+    if any(one.sensor_may_lag for one in diagnosis.findings):
+        parts.append(DESCRIBE_SENSOR)
     return " ".join(parts)
+
+
+def _describe_rival_sensor(one: Finding) -> str:
+    """Say that what lags may be the sensor, with the size that it has as an effect, or that effects are alike."""
+    if not one.sensor_may_lag:
+        return "; this recording cannot distinguish them"
+    size = format_parameters(one)
+    return f" ({size}), or {OF_SENSOR}; this recording cannot distinguish them"
 
 
 def _describe_undetermined(diagnosis: Diagnosis) -> str:

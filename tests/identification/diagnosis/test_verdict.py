@@ -10,7 +10,7 @@ from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.result import Finding, Nearest, Verdict
 from motor_identification.diagnosis.selection.selection import Selection
-from motor_identification.diagnosis.verdict import decide, find_missed_edges, find_nearest, leave_out_named
+from motor_identification.diagnosis.verdict import decide, doubt_lags, find_missed_edges, find_nearest, leave_out_named
 from motor_identification.discrepancy.structure import Structure
 from motor_model.effects import EFFECT_BY_NAME
 
@@ -64,6 +64,15 @@ def test_one_response_explains_nothing(confirms: bool, verdict: Verdict, profile
 def test_what_is_not_determined_is_undecided_and_no_finding(gap: float, found: bool) -> None:
     verdict, profile = decide((finding(),) * found, chosen(stub_model(gap, 0.0)), (), ("transport_delay",))
     assert verdict is Verdict.UNDECIDED and profile == EFFECT_BY_NAME["transport_delay"].shown_by
+
+
+def test_a_lag_that_may_be_of_the_sensor_is_undecided() -> None:
+    lag = replace(finding(), effect="armature_inductance")
+    assert [one.sensor_may_lag for one in doubt_lags((finding(), lag))] == [False, True]
+    for gap, sure in ((AT, Verdict.EXPLAINED), (OVER, Verdict.UNEXPLAINED)):
+        assert decide((finding(), lag), chosen(stub_model(gap, 0.0)), ()) == (sure, "")
+        doubted = decide(doubt_lags((finding(), lag)), chosen(stub_model(gap, 0.0)), ())
+        assert doubted == (Verdict.UNDECIDED if gap == AT else Verdict.UNEXPLAINED, "")
 
 
 def test_what_is_not_determined_takes_nothing_from_what_explains_everything() -> None:

@@ -31,11 +31,14 @@ def test_json_is_the_promised_form(found: Diagnosis, variants: dict[Verdict, Dia
     (finding,) = content["findings"]
     assert list(finding) == [
         "effect", "gap_before", "gap_after", "where", "parameters", "alternatives", "ambiguous_with",
-        "suggested_experiment",
+        "sensor_may_lag", "suggested_experiment",
     ]  # fmt: skip
     assert finding["parameters"]["ks"]["value"] == pytest.approx(0.4, abs=0.002)
     assert list(finding["alternatives"][0]) == ["effect", "gap_after"]
     assert diagnosis_to_json(variants[Verdict.UNDECIDED])["findings"][0]["suggested_experiment"] == "coast"
+    assert finding["sensor_may_lag"] is False
+    doubted = replace(found, findings=(replace(found.findings[0], sensor_may_lag=True),))
+    assert diagnosis_to_json(doubted)["findings"][0]["sensor_may_lag"] is True
     assert content["nearest"] is None
     nearest = diagnosis_to_json(replace(found, nearest=Nearest(("dead_zone", "coast_drive"), 11.25)))["nearest"]
     assert nearest == {"effects": ["dead_zone", "coast_drive"], "gap": 11.25}

@@ -9,6 +9,7 @@ from motor_identification.diagnosis.result import Diagnosis, Nearest, Verdict
 from motor_identification.diagnosis.thresholds import EXPLAINED_GAP
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.noise.error_model import Disturbance
+from motor_identification.reporting.diagnosis_table import format_parameters
 from motor_identification.reporting.diagnosis_text import SEEN, summarize_diagnosis
 from motor_identification.reporting.names import capitalize, join_effects
 from motor_model.effects import EFFECTS
@@ -31,6 +32,24 @@ def test_summaries(variants: dict[Verdict, Diagnosis]) -> None:
     )
     assert said[Verdict.UNEXPLAINED].startswith("An effect that is not in the table is missing: the validation RMS")
     assert f"{capitalize(one.findings[0].where)}. Residual torque over the speed: -0.3" in said[Verdict.UNEXPLAINED]
+
+
+@pytest.mark.parametrize("rivals", [(), ("transport_delay",)])
+def test_a_lag_that_may_be_of_the_sensor_is_told_as_one_of_both(
+    variants: dict[Verdict, Diagnosis], rivals: tuple[str, ...]
+) -> None:
+    one, lag = variants[Verdict.EXPLAINED], {"electrical_time_constant": (0.0675, 0.0007)}
+    named = replace(one.findings[0], effect="armature_inductance", parameters=lag, ambiguous_with=rivals)
+    doubted = replace(named, sensor_may_lag=True)
+    said = summarize_diagnosis(replace(one, verdict=Verdict.UNDECIDED, findings=(one.findings[0], doubted)))
+    names = "Armature inductance or transport delay" if rivals else "Armature inductance"
+    size = re.escape(format_parameters(named))
+    assert re.match(
+        rf"Coulomb friction \(ks = .* V\) was missing\. {names} is missing \({size}\), or the speeds were smoothed or "
+        r"late before they were logged; this recording cannot distinguish them\. Log the encoder's counts, or say how",
+        said,
+    )
+    assert "were smoothed or late" not in summarize_diagnosis(replace(one, findings=(named,)))
 
 
 def test_a_gap_that_rises_beside_a_random_torque_is_said_to_rise(variants: dict[Verdict, Diagnosis]) -> None:
