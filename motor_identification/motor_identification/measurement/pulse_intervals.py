@@ -13,7 +13,7 @@ import numpy as np
 from motor_identification.measurement.edit_intervals import append_standstills
 from motor_identification.measurement.intervals import Intervals, index_intervals
 from motor_identification.measurement.standstill import LEAST_STANDSTILL
-from motor_identification.recording import Bools, Floats, Recording
+from motor_identification.recording import Bools, Floats, Integers, Recording
 from motor_identification.sensor.pulse_periods import mark_decays
 from motor_identification.sensor.value_lattice import find_lattice
 from motor_identification.sensor.white_noise import estimate_white_noise
@@ -24,6 +24,7 @@ FRESH = 0.5  # of a row: with two edges within it for certain its value is a new
 # Of a row: a slot's time by what is lost of a speed in a row, in speeds. From v on a motor stops within v²/2a, which is
 # less than a slot from 0.5 on: then it may have had no edge in the row, and its value is an old one.
 STOPS = 0.25
+BEYOND_NEXT = 1.1  # times the next value that one after a turn may be
 OLDER = 1.1  # rows: an edge came within the row before, stamps are a little off
 STEADY = 2.0  # times its neighbours that a value may be, or they it, where it may be old
 LEAST_NOISE = 0.005  # of a value: no cheap disc is more regular
@@ -73,14 +74,28 @@ def _mark_measured(recording: Recording) -> Bools:
     # An edge is a slot's time after the one before: where a value comes sooner, that was the time since one.
     sooner = np.diff(time[at]) < period[at[1:]] - OLDER * row
     at = at[~np.append(sooner, False)]
+    turned = _mark_turns(time[at] / row, speed[at], period[at] / row, np.cumsum(speed == 0.0)[at])
     before, after = speed[at[:-1]], speed[at[1:]]
     small, large = (side(np.abs(before), np.abs(after)) for side in (np.minimum, np.maximum))
     alike = (before * after > 0.0) & (large < STEADY * small)
     steady = np.append(False, alike) & np.append(alike, False)
     measured = np.zeros(len(time), np.bool_)
     fresh = (period[at] < FRESH * row) & ~_mark_stops(time[at] / row, speed[at], period[at] / row)
-    measured[at[fresh | steady]] = True
+    measured[at[(fresh | steady) & ~turned]] = True
     return measured
+
+
+def _mark_turns(time: Floats, speed: Floats, period: Floats, zeros: Integers) -> Bools:
+    """Mark values (N,) after a turn whose time may have begun before it: an edge was crossed there and back.
+
+    Of times and periods (N,) [rows]. By what a speed gains in a row, and where it is more than the next one, which no
+    motor's is that turns. zeros: how often 0 was shown until each; after one a board waits for two edges of one way.
+    """
+    size, change = np.abs(speed), np.abs(np.diff(speed)) / np.diff(time)
+    turns = (speed[1:] * speed[:-1] < 0.0) & (np.diff(zeros) == 0)
+    young = period[1:] * change > STOPS * size[1:]
+    above = np.append(size[1:-1] > BEYOND_NEXT * size[2:], False)[: len(young)]
+    return np.append(False, turns & (young | above))[: len(speed)]
 
 
 def _mark_stops(time: Floats, speed: Floats, period: Floats) -> Bools:

@@ -76,6 +76,36 @@ def test_a_value_before_a_stop_or_a_turn_may_be_an_old_one(values: list[float], 
         assert bool(np.any(np.abs(ends - 21.8 * row) < 0.01 * row)) is measured  # 0.2 rows before its own
 
 
+@pytest.mark.parametrize(
+    ("values", "measured"),
+    [
+        ([-4.0, -9.0, -10.0], True),
+        ([-3.4, -9.0, -10.0], False),  # in 0.25 of the time since it gained so much
+        ([-9.8, -9.0, -10.0], True),
+        ([-10.0, -9.0, -10.0], False),  # a motor that turned is slower than a row later
+    ],
+)
+def test_a_time_over_a_turn_is_no_period(values: list[float], measured: bool) -> None:
+    """The same edge there and back: whatever the time between, no slot was passed in it."""
+    recording = timed()
+    row = recording.info.sample_period
+    speed = np.full(len(recording), values[-1])
+    speed[:30], speed[30 : 30 + len(values)] = 4.0, values
+    turned = replace(recording, speed=speed, edge_period=divide_slot(0.5 * row, speed))
+    ends = make_pulse_intervals(turned).time / row
+    end = 30.0 - 0.25 / abs(values[0])
+    assert bool(np.any(np.abs(ends - end) < 1e-3)) is measured
+
+
+def test_what_follows_a_zero_between_two_ways_is_measured() -> None:
+    recording = timed()
+    row = recording.info.sample_period
+    speed = np.sign(30.0 - np.arange(len(recording))) * 10.0
+    turned = replace(recording, speed=speed, edge_period=divide_slot(4.0 * row, speed))
+    ends = make_pulse_intervals(turned).time / row
+    assert np.any(np.abs(ends - 32.8) < 0.02)
+
+
 @pytest.mark.parametrize(("seconds", "pieces"), [(0.01, 0), (0.07, 2), (0.12, 1), (0.45, 4)])
 def test_a_motor_that_stands_turns_by_less_than_a_slot(seconds: float, pieces: int) -> None:
     """At any time of it: in pieces of a few rows, or of a standstill, from the row before; a row may be lost."""
