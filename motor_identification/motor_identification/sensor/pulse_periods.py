@@ -6,7 +6,7 @@ slot over the time since the latest one: that tells when it came, and of no new 
 """
 
 from dataclasses import dataclass
-from math import log
+from math import log, tau
 
 import numpy as np
 
@@ -20,6 +20,9 @@ AGAINST = 9.0  # of them that one value which does not come as its slot says wei
 # Of the squares by which the stays differ, what a slot leaves at most: stays of even frames differ by chance, if at
 # all, which leaves 1 or more. Measured: 0.1 to 0.6 of speeds by periods.
 LEFT = 0.85
+# Of those values, that stayed for another number of rows than most: a single count in a mean of two rows stays for two,
+# and is the larger the shorter they are. Measured: one of such means, 16 and more of speeds by periods.
+OTHERS = 4
 OFF, OFF_SLOT = 0.05, 0.03  # of a row and of a slot's time, for stamps and slots that are a little off
 SLOW = 1.05  # rows that a slot takes at what is slow
 STAYED = 1.5  # rows that a value was there for more than one of them
@@ -35,6 +38,7 @@ FEWEST_DECAYS = 6
 GRID = 1.02  # from one slot that is tried to the next
 ALIKE = 0.98  # of the best score: slots that explain the values as well
 LONGEST = 200.0  # rows that a slot takes at nearly the fastest speed, at most
+LONGEST_SLOT = 1.1 * tau  # [rad]: a disc has one edge a turn at least; slots are known to some per cent
 ENDS = (0.02, 0.98)  # quantiles of the speeds, between which slots are tried
 
 
@@ -48,7 +52,8 @@ def find_slot_by_stays(time: Floats, speed: Floats) -> float:
     stays = _measure_stays(time, speed, slots)
     most = max((stay.score for stay in stays if stay.tells), default=0.0)
     alike = [stay.tells and stay.score >= ALIKE * most for stay in stays]
-    return float(np.exp(np.mean(np.log(slots[alike])))) if any(alike) else 0.0
+    slot = float(np.exp(np.mean(np.log(slots[alike])))) if any(alike) else 0.0
+    return slot if slot <= LONGEST_SLOT else 0.0
 
 
 def find_slot_by_decays(time: Floats, speed: Floats) -> float:
@@ -71,7 +76,7 @@ def find_slot_by_decays(time: Floats, speed: Floats) -> float:
         most = np.argmax(np.where(likely, alike, 0))
         near = np.abs(slots - slots[most]) < SAME_DECAY
         slot = float(np.exp(np.median(slots[near])))
-        if not contradicts(score_stays(time, speed, slot)):
+        if slot <= LONGEST_SLOT and not contradicts(score_stays(time, speed, slot)):
             return slot
         likely &= ~near
     return 0.0
@@ -116,6 +121,7 @@ class _Stays:
     open: int  # fast values that stayed for longer than it says: by chance, or by another slot
     apart: Floats  # [s] from the one before to each slow value that it explains, shape (S,)
     period: Floats  # [s] the slot's time at those
+    alike: int  # of those that it explains, the values that stayed for the commonest number of rows
 
     @property
     def score(self) -> float:
@@ -124,7 +130,7 @@ class _Stays:
     @property
     def tells(self) -> bool:
         """Whether enough values stay as long as the slot says, and their stays differ as it says."""
-        if self.held < FEWEST or self.score < 0.0:
+        if self.held < FEWEST or self.score < 0.0 or self.held - self.alike < OTHERS:
             return False
         varied = float(np.sum((self.apart - np.mean(self.apart)) ** 2))
         return float(np.sum((self.apart - self.period) ** 2)) < LEFT * varied
@@ -159,7 +165,8 @@ def _measure_stays_of(time: Floats, speed: Floats, changed: Integers, fine: Bool
     told = slow & fitting & fine[new]
     marks = (told & (stay > STAYED * row), slow & ~fitting & ~even & fine[new], too_long & fine[new])
     held, against, left = (int(np.count_nonzero(some)) for some in marks)
-    return _Stays(held, against, left, stay[told], takes[told])
+    alike = np.max(np.bincount(np.rint(stay[marks[0]] / row).astype(np.int64)), initial=0)
+    return _Stays(held, against, left, stay[told], takes[told], int(alike))
 
 
 def _compare(time: Floats, speed: Floats, new: Integers, takes: Floats, row: float) -> tuple[Floats, Bools]:

@@ -14,6 +14,7 @@ import numpy as np
 from motor_identification.estimation.problem import Problem
 from motor_identification.recording import Bools, Floats, Integers, Recording
 from motor_identification.sensor.pulse_periods import (
+    LONGEST_SLOT,
     contradicts,
     find_slot_by_decays,
     find_slot_by_stays,
@@ -21,6 +22,7 @@ from motor_identification.sensor.pulse_periods import (
 )
 from motor_identification.timing.shaped_fit import ShapedFit, Shaper, measure_gain
 from motor_identification.timing.timing import LEAST_DELAY, Timing
+from motor_model.effects import LAGGING
 from motor_model.errors import RecordingError
 
 # Slots that are tried: so many rows at the usual speed (shorter ones make no difference), then nearer to the likeliest.
@@ -77,14 +79,29 @@ def find_likeliest_slot(shaper: Shaper, instants: Timing, other: Timing) -> Slot
     return best
 
 
+def measure_gain_over_lag(shaper: Shaper, timing: Timing, other: Timing) -> float:
+    """Measure how much likelier speeds are by a timing with a slot than by another one beside what lags in a motor.
+
+    The age of values is a lag, and gains a little where something else lags: speeds that were smoothed.
+    """
+    return judge_slot(shaper, timing, other, shaper.fit(other), LAGGING).gain
+
+
 def measure_usual_travel(recordings: Sequence[Recording]) -> float:
     """Measure how far [rad] a motor usually turns in a row."""
     return min(recording.sample_period for recording in recordings) * _measure_usual_speed(recordings)
 
 
-def judge_slot(shaper: Shaper, timing: Timing, other: Timing, plain: ShapedFit) -> SlotGain:
-    """Judge a timing with a slot beside another one without. plain: the recordings fitted by that."""
+def judge_slot(
+    shaper: Shaper, timing: Timing, other: Timing, plain: ShapedFit, beside: Sequence[str] = ()
+) -> SlotGain:
+    """Judge a timing with a slot beside another one without, which may have more effects.
+
+    plain: the recordings fitted by that other timing.
+    """
     slot = timing.slot
+    if slot > LONGEST_SLOT:
+        return SlotGain(slot, -np.inf, 0)
     stays = [score_stays(one.time, one.speed, slot) for one in shaper.recordings]
     if any(map(contradicts, stays)):
         return SlotGain(slot, -np.inf, 0)
@@ -96,7 +113,7 @@ def judge_slot(shaper: Shaper, timing: Timing, other: Timing, plain: ShapedFit) 
     if not all(len(some) for some in moving) or sum(map(len, moving)) < LEAST_ROWS:
         return SlotGain(slot, -np.inf, 0)
     rows = _find_rows(plain.estimate.problem, periods.estimate.problem, moving)
-    alone = replace(shaper, restrict=_restrict_to(rows, shaper.restrict)).fit(other)
+    alone = replace(shaper, restrict=_restrict_to(rows, shaper.restrict)).fit(other, beside)
     before, after = _list_errors(alone), _list_errors(periods)
     undoes = plain.delay > LEAST_DELAY * plain.estimate.problem.sample_period and periods.delay < UNDONE * plain.delay
     return SlotGain(slot, measure_gain(before, after), len(after), undoes, sum(stays))

@@ -24,6 +24,7 @@ from motor_identification.timing.pulse_slot import (
     find_decay_slot,
     find_likeliest_slot,
     find_stays_slot,
+    measure_gain_over_lag,
     measure_usual_travel,
 )
 from motor_identification.timing.row_times import AS_STAMPED, RowTimes, list_row_times
@@ -155,6 +156,8 @@ def _find_periods(shaper: Shaper, other: Timing, least: float = -inf) -> Timing 
         return None
     if found.slot < LEAST_SLOT * measure_usual_travel(shaper.recordings):  # it ends at the row's own instant
         return timing
+    if measure_gain_over_lag(shaper, replace(timing, slot=found.slot), other) <= 0.0:
+        return None
     return replace(_choose_instants(shaper, found.slot), slot=found.slot)
 
 

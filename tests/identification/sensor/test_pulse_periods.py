@@ -8,6 +8,7 @@ from swinging import noisy, recorded
 from motor_identification.recording import Floats
 from motor_identification.sensor import pulse_periods
 from motor_identification.sensor.pulse_periods import (
+    _Stays,
     contradicts,
     find_slot_by_decays,
     find_slot_by_stays,
@@ -49,6 +50,21 @@ def test_what_stays_for_other_reasons_is_none(rate: float) -> None:
         assert find_slot_by_stays(exact.time, held) == 0.0
     for step in (0.5, 5.0):
         assert find_slot_by_stays(exact.time, np.round(exact.speed / step) * step) == 0.0
+
+
+def test_no_slot_is_longer_than_a_turn() -> None:
+    for falls, find in ((False, find_slot_by_stays), (True, find_slot_by_decays)):
+        time, speed = logged(12, 200.0, falls)
+        assert find(time, 11.0 * speed) == pytest.approx(11.0 * 2.0 * np.pi / 12, rel=0.05)
+        assert find(time, 15.0 * speed) == 0.0
+
+
+@pytest.mark.parametrize(("others", "tells"), [(1, False), (3, False), (4, True)])
+def test_values_that_stay_for_one_number_of_rows_are_no_slot(others: int, tells: bool) -> None:
+    """Single counts in means of two rows show for two, and are the larger the shorter these are: 19 of 20 stays."""
+    period = 0.1 + 0.002 * np.arange(24)
+    stays = _Stays(held=24, against=0, open=0, apart=period, period=period, alike=24 - others)
+    assert stays.tells is tells
 
 
 def test_too_few_changes_tell_nothing() -> None:

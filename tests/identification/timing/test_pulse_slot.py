@@ -23,6 +23,7 @@ from motor_identification.timing.pulse_slot import (
     find_likeliest_slot,
     find_stays_slot,
     judge_slot,
+    measure_gain_over_lag,
     measure_usual_travel,
 )
 from motor_identification.timing.shaped_fit import Shaper
@@ -66,6 +67,12 @@ def test_a_fast_motor_shows_it_by_what_comes_late() -> None:
     assert slot_found(48).slot == pytest.approx(2.0 * np.pi / 48, rel=0.4)
 
 
+@pytest.fixture
+def unlike_lag(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Any slot is likelier than a lag."""
+    monkeypatch.setattr(speed_timing, "measure_gain_over_lag", lambda *_: np.inf)
+
+
 def judge(shaper: Shaper, slot: float) -> SlotGain:
     return judge_slot(shaper, replace(OTHERS[0], slot=slot), OTHERS[0], shaper.fit(OTHERS[0]))
 
@@ -84,6 +91,30 @@ def test_a_slot_that_values_do_not_stay_for_is_none() -> None:
     assert [np.isfinite(judge(shaper, factor * slot).gain) for factor in (0.25, 1.0, 4.0)] == [False, True, False]
 
 
+@pytest.mark.parametrize(("share", "told"), [(1.01, True), (0.99, False)])
+def test_a_slot_of_more_than_a_turn_is_none(share: float, told: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    shaper, slot = shaper_of(logged(48)), 2.0 * np.pi / 48
+    monkeypatch.setattr(pulse_slot, "LONGEST_SLOT", share * slot)
+    assert np.isfinite(judge(shaper, slot).gain) is np.bool_(told)
+
+
+@pytest.mark.parametrize(("gain", "told"), [(0.1, True), (-0.1, False)])
+def test_a_lag_that_is_as_likely_is_no_slot(gain: float, told: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Smoothed speeds had a slot that was a little likelier than no lag, and far less likely than one."""
+    shaper = shaper_of(logged(48))
+    monkeypatch.setattr(speed_timing, "find_likeliest_slot", lambda *_: SlotGain(0.1, 100.0, 200))
+    monkeypatch.setattr(speed_timing, "measure_gain_over_lag", lambda *_: gain)
+    assert (speed_timing._find_periods(shaper, ASSUMED) is not None) is told
+
+
+def test_true_times_between_edges_are_likelier_than_a_lag() -> None:
+    shaper, slot = shaper_of(logged(48)), 2.0 * np.pi / 48
+    assert measure_gain_over_lag(shaper, replace(OTHERS[0], slot=slot), OTHERS[0]) > 100.0
+    late = check(noisy(0.05, instant=True, electrical_time_constant=0.02))
+    made_up = replace(OTHERS[0], slot=measure_usual_travel([late]))
+    assert measure_gain_over_lag(shaper_of(late), made_up, OTHERS[0]) < 0.0
+
+
 def test_values_of_instants_and_means_show_none() -> None:
     for timing in (OTHERS[0], ASSUMED):
         shaper = shaper_of(check(noisy(0.05, instant=timing is OTHERS[0])))
@@ -98,6 +129,7 @@ def test_smoothed_speeds_come_late_too_and_show_none() -> None:
     assert found.slot == 0.0 and found.filter is not None
 
 
+@pytest.mark.usefixtures("unlike_lag")
 @pytest.mark.slow
 def test_counts_and_what_is_held_are_explained_already(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(speed_timing, "LEAST_GAIN", -np.inf)
@@ -111,6 +143,7 @@ def test_counts_and_what_is_held_are_explained_already(monkeypatch: pytest.Monke
     assert timing_of(held).slot == 0.0
 
 
+@pytest.mark.usefixtures("unlike_lag")
 def test_a_slot_that_passes_many_times_in_a_row_is_an_instant(monkeypatch: pytest.MonkeyPatch) -> None:
     """A tachogenerator at 1 kHz had a slot of a thousandth of a row, and no noise then: its friction was not named."""
     shaper = shaper_of(check(noisy(0.05, instant=True)))
@@ -158,6 +191,7 @@ def test_the_slot_that_falling_values_tell_is_the_one_that_is_judged(monkeypatch
     assert find_likeliest_slot(shaper, OTHERS[0], OTHERS[0]).slot != judged.slot
 
 
+@pytest.mark.usefixtures("unlike_lag")
 @pytest.mark.parametrize(("gain", "told"), [(1.01, True), (0.99, False)])
 def test_what_stays_is_no_filter_where_a_slot_is_likelier(
     gain: float, told: bool, monkeypatch: pytest.MonkeyPatch
@@ -189,6 +223,7 @@ def test_the_motor_is_right_and_the_notes_say_how_it_was_read() -> None:
     assert not any(tells_of_speeds(note) for note in read.notes)  # otherwise
 
 
+@pytest.mark.usefixtures("unlike_lag")
 @pytest.mark.parametrize(
     ("gain", "undoes", "told"), [(2.9, True, False), (3.1, True, True), (19.9, False, False), (20.1, False, True)]
 )
@@ -230,6 +265,7 @@ def test_of_slots_that_are_as_likely_the_one_that_values_stay_for_is_taken(
     assert find_likeliest_slot(shaper, OTHERS[0], OTHERS[0]).slot == pytest.approx(factor * usual)
 
 
+@pytest.mark.usefixtures("unlike_lag")
 @pytest.mark.parametrize(("other", "falls"), [(OTHERS[1], 0.0), (ASSUMED, 0.1), (ASSUMED, 0.0)])
 @pytest.mark.parametrize(("later", "early"), [(30.0, 25.0), (25.0, 30.0)])
 def test_a_slot_is_looked_for_both_ways_where_the_age_of_values_may_hide_when_voltages_held(
