@@ -22,6 +22,7 @@ LEAST_SCATTER = 1e-3  # of a step: better than that is no more evidence
 MOST_COARSE = 1.9  # times a step that was found: half of it fits as well
 LEAST_PLACES = 4  # different multiples that must occur
 FEWEST_COUNTS = 2  # different sizes above 0: one is a motor that runs or stands
+SAME_LEVEL = 1e-3  # of the largest: sizes that differ by no more are one, in a last digit that a filter's undoing left
 CHANGES_OF_EACH = 20  # changes for each of so few sizes: a motor's speeds between some steps do not come again as often
 CHANCE = 1e-4  # that values without a lattice are given one
 PARTS = (1.0, 0.5, 0.25)  # of the largest value: a window that jitters blurs large values, not small ones
@@ -46,12 +47,15 @@ def _find_small_counts(values: Floats, levels: Floats) -> float:
 
     levels: their sizes above 0, ascending. What has no lattice never comes to the same few values again and again.
     """
-    if not FEWEST_COUNTS <= len(levels) < LEAST_PLACES or not np.any(values == 0.0):
+    same = SAME_LEVEL * levels[-1] if len(levels) else 0.0
+    levels = levels[levels > same]
+    sizes = levels[np.diff(levels, prepend=0.0) > same]  # the first of those that differ in their last digits
+    if not FEWEST_COUNTS <= len(sizes) < LEAST_PLACES or not np.any(np.abs(values) <= same):
         return 0.0
-    step = _refine(levels, float(levels[0]))
-    all_there = np.array_equal(np.rint(levels / step), np.arange(1, len(levels) + 1))
-    changes = np.count_nonzero(np.diff(values))
-    often = changes >= CHANGES_OF_EACH * len(levels)
+    step = _refine(levels, float(sizes[0]))
+    all_there = np.array_equal(np.rint(sizes / step), np.arange(1, len(sizes) + 1))
+    changes = np.count_nonzero(np.abs(np.diff(values)) > same)
+    often = changes >= CHANGES_OF_EACH * len(sizes)
     return step if all_there and often and _scatter(levels, step) < LEAST_SCATTER else 0.0
 
 

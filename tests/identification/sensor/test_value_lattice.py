@@ -72,3 +72,6 @@ def test_a_few_counts_that_change_all_the_time_are_a_lattice(most: int) -> None:
     assert find_lattice(np.where(np.abs(counts) == 1.0, 1.03 * counts, counts) * 4.488) == 0.0  # no multiples
     assert find_lattice(np.where(counts == 0.0, 1.0, counts) * 4.488) == 0.0  # it never stands
     assert find_lattice(np.where(np.abs(counts) == 1.0, 0.0, counts) * 4.488) == 0.0  # one size is missing
+    digits = 2e-4 * most * np.random.default_rng(9).uniform(-1.0, 1.0, len(counts))
+    assert find_lattice((counts + digits) * 4.488) == pytest.approx(4.488, rel=1e-3)  # what a filter's undoing leaves
+    assert find_lattice((counts + 20.0 * digits) * 4.488) == 0.0
