@@ -25,6 +25,9 @@ NEAR_WHOLE, MOSTLY_WHOLE, SMOOTHER = 0.05, 0.75, 0.5
 UNTOLD = 0.01  # of the typical speed: the noise of values too few to tell it, such as those of a static curve
 PRINTED_UNITS = (1.0, radians(1.0), tau / 60.0, tau)  # rad/s, deg/s, rpm, turns/s
 SAME_DIGIT = 1e-3  # of a decade
+# Digits of rad/s are no counts: those are a part of a turn. Nor are digits of other units that would be so many of a
+# turn: encoders have up to 8192 on a shaft, 20,000 if they are dear. Of the last digit: how exactly values are whole.
+MOST_COUNTS, WHOLE_DIGIT = 20_000, 1e-2
 # A converter's last bit: its range is one of these volts, or ten times them, in 2^n or 2^n − 1 steps; such as a
 # tachogenerator's. A step by chance is as near to one of them in 1 % of the cases.
 RANGES, BITS, SAME_RANGE = (1.0, 2.0, 2.5, 3.3, 5.0), (8, 10, 12, 13, 14, 16), 1e-4
@@ -113,10 +116,17 @@ def find_noise(
     moving = mark_motion(values)
     step, noise = find_lattice(values), estimate_white_noise(values[moving], voltage[moving])
     beyond = NOISE_BEYOND_DIGITS if _is_last_digit(step) or _is_last_bit(step) else NOISE_BEYOND
-    if counted and step > 0.0 and noise < beyond * COUNT_NOISE * step:
+    counted = counted and step > 0.0 and not _is_of_digits(values, step, window)
+    if counted and noise < beyond * COUNT_NOISE * step:
         return step, 0.0, round(tau / (step * window))
     typical = sqrt(float(np.mean(values**2)))
     return 0.0, max(noise, step / sqrt(12.0)) or UNTOLD * typical, 0
+
+
+def find_counts(values: Floats, window: float) -> float:
+    """Find the step that values (K,) [rad/s] are counts of within a window [s]; 0 of none, or of printed digits."""
+    step = find_lattice(values)
+    return 0.0 if _is_of_digits(values, step, window) else step
 
 
 def are_smoothed(values: Floats, voltage: Floats, step: float) -> bool:
@@ -130,10 +140,29 @@ def are_smoothed(values: Floats, voltage: Floats, step: float) -> bool:
 
 def _is_last_digit(step: float) -> bool:
     """Whether a step [rad/s] is 1, 0.1, 0.01 … of a unit that people print speeds in."""
-    if step <= 0.0:
-        return False
-    places = [log10(step / unit) for unit in PRINTED_UNITS]
-    return any(place < 0.5 and abs(place - round(place)) < SAME_DIGIT for place in places)
+    return bool(_list_digits(step))
+
+
+def _list_digits(step: float) -> list[tuple[float, float]]:
+    """List the units in which a step [rad/s] is a last digit, each with that [rad/s]."""
+    places = [(unit, log10(step / unit)) for unit in PRINTED_UNITS if step > 0.0]
+    return [
+        (unit, unit * 10.0 ** round(place))
+        for unit, place in places
+        if place < 0.5 and abs(place - round(place)) < SAME_DIGIT
+    ]
+
+
+def _is_of_digits(values: Floats, step: float, window: float) -> bool:
+    """Whether the step [rad/s] of values (K,) is that of printed digits, and of no counts within a window [s].
+
+    To the digit: a count's step that comes near to one by chance is off by more where there are many of it.
+    """
+    return any(
+        bool(np.all(np.abs(values / digit - np.rint(values / digit)) < WHOLE_DIGIT))
+        and (unit == 1.0 or tau > MOST_COUNTS * digit * window)
+        for unit, digit in _list_digits(step)
+    )
 
 
 def _is_last_bit(step: float) -> bool:

@@ -92,9 +92,7 @@ def measure_usual_travel(recordings: Sequence[Recording]) -> float:
     return min(recording.sample_period for recording in recordings) * _measure_usual_speed(recordings)
 
 
-def judge_slot(
-    shaper: Shaper, timing: Timing, other: Timing, plain: ShapedFit, beside: Sequence[str] = ()
-) -> SlotGain:
+def judge_slot(shaper: Shaper, timing: Timing, other: Timing, plain: ShapedFit, beside: Sequence[str] = ()) -> SlotGain:
     """Judge a timing with a slot beside another one without, which may have more effects.
 
     plain: the recordings fitted by that other timing.

@@ -20,6 +20,7 @@ from motor_identification.noise.error_data import log_likelihood, make_error_dat
 from motor_identification.noise.error_learning import learn_error_model
 from motor_identification.recording import Recording
 from motor_identification.sensor.held_samples import find_frames
+from motor_identification.sensor.speed_sensor import find_counts
 from motor_identification.sensor.value_lattice import find_lattice
 from motor_identification.timing.shaped_fit import Shaper
 from motor_identification.timing.speed_filter import BILINEAR, KINDS, LEAST_ROWS, MEAN, MEMORY, SpeedFilter
@@ -29,7 +30,7 @@ from motor_identification.timing.unit_zeros import find_means
 from motor_model.effects import LAGGING
 
 # Tried in turn as long as they are likelier: beyond, the motor's own lag is taken for a filter, and that for the motor.
-CLIMB = (0.0, 0.3, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.92, 0.94, 0.96, 0.98)
+CLIMB = (0.0, 0.15, 0.3, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.92, 0.94, 0.96, 0.98)
 TAUGHT = 0.854  # by a tutorial that many follow: v = 0.854*v + 0.0728*x + 0.0728*x_before
 ROUND = tuple(
     sorted({k / 20 for k in range(1, 20)} | {k / 16 for k in range(1, 16)} | {TAUGHT, 0.96, 0.97, 0.98, 0.99})
@@ -43,7 +44,10 @@ AS_LIKELY = 3.0
 # Of log likelihood, from a top to its neighbours: with less between them a parabola finds it. Else half as far from it,
 # so many times at most: counts are whole at one share alone.
 SHARP, HALVINGS = 40.0, 5
-LEAST_SPEEDS = 200
+LEAST_SPEEDS = 60
+# Of the one before: programs that keep less hardly filter. Measured: 0.02 to 0.15 of three logs that nobody filtered.
+LEAST_SHARE = 0.19
+LONGEST = 0.1  # of the speeds: a filter that is later had speeds that hardly moved, whose last digits are likely then
 EVEN = 1e-3  # of a row: rows that differ by no more are of one length
 MOST_SHARES = 4  # that make a lattice: where more do, values are too few to tell
 LATTICE_SPEEDS = 40  # that are enough for a lattice to be looked closer at
@@ -76,8 +80,8 @@ def find_filter(shaper: Shaper, timings: Sequence[Timing]) -> Timing:
 
 
 def _are_counts(recordings: Sequence[Recording]) -> bool:
-    """Whether speeds lie on a lattice as they are: then they passed no poles, but a mean perhaps."""
-    return any(find_lattice(one.speed) > 0.0 for one in recordings)
+    """Whether speeds lie on a lattice of counts as they are: then they passed no poles, but a mean perhaps."""
+    return any(find_counts(one.speed, one.sample_period) > 0.0 for one in recordings)
 
 
 def _choose_filter(likelihood: "Likelihood", means: Sequence[int], are_open: bool) -> tuple[SpeedFilter | None, bool]:
@@ -114,7 +118,8 @@ def _choose_poles(likelihood: "Likelihood", simplest: str, are_open: bool) -> tu
     for kind in others:
         tops[kind] = _climb(partial(likelihood.of_kind, kind), _find_as_late(kind, first.delay))
     kind = max(tops, key=lambda kind: likelihood.of_kind(kind, CLIMB[tops[kind]]) - AS_LIKELY * (kind != simplest))
-    return _make(kind, _find_peak(partial(likelihood.of_kind, kind), tops[kind])), False
+    number = _find_peak(partial(likelihood.of_kind, kind), tops[kind])
+    return (_make(kind, number) if number >= LEAST_SHARE or kind == BILINEAR else None), False
 
 
 def _find_as_late(kind: str, delay: float) -> int:
@@ -175,7 +180,7 @@ def _list_lattices(recordings: Sequence[Recording], kind: str, shares: Sequence[
     rows = np.diff(longest.time, prepend=2.0 * longest.time[0] - longest.time[1])
     even = np.ptp(rows) < EVEN * float(np.median(rows))
     for durations in (np.ones(len(rows)),) if even else (np.ones(len(rows)), rows):  # counts of each by its own row
-        if find_lattice(longest.speed * durations) > 0.0:
+        if find_counts(longest.speed * durations, longest.sample_period) > 0.0:
             return []
         counted = {share: SpeedFilter(kind, share).undo(longest.speed) * durations for share in shares}
         near = [share for share in shares if find_lattice(counted[share][some]) > 0.0]
@@ -194,7 +199,8 @@ def _is_worth_it(each: Sequence[Likelihood], likelihood: Likelihood, passed: Spe
     plain = max(value for one in each for value in (one.of(None), one.of_lag()))
     gain = max(one.of(passed) for one in each) - plain
     most = passed.log_likeness * likelihood.count  # of white noise, over what it is taken for
-    return gain > max(LEAST_GAIN, LEAST_PART * most) and likelihood.count >= LEAST_SPEEDS
+    enough = likelihood.count >= max(LEAST_SPEEDS, passed.delay / LONGEST)
+    return enough and gain > max(LEAST_GAIN, LEAST_PART * most)
 
 
 def _climb(value: Callable[[float], float], begin: int = 0) -> int:

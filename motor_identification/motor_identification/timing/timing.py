@@ -9,8 +9,7 @@ import numpy as np
 from motor_identification.recording import Recording
 from motor_identification.sensor.description import tells_of_speeds
 from motor_identification.sensor.pulse_periods import divide_slot
-from motor_identification.sensor.speed_sensor import is_assumed
-from motor_identification.sensor.value_lattice import find_lattice
+from motor_identification.sensor.speed_sensor import find_counts, is_assumed
 from motor_identification.timing.row_times import AS_STAMPED, RowTimes
 from motor_identification.timing.speed_filter import MEAN, SpeedFilter
 from motor_model.sample import Measurement
@@ -78,13 +77,13 @@ class Timing:
 
     @staticmethod
     def _smooths(recording: Recording, passed: SpeedFilter) -> bool:
-        """Whether a recording's speeds may have passed a filter: not what is no speed, nor lies on a lattice as it is.
+        """Whether a recording's speeds may have passed a filter: not what is no speed, nor counts as it is.
 
         A mean of counts lies on one.
         """
         if recording.info.measurement is not Measurement.SPEED:
             return False
-        return passed.kind == MEAN or find_lattice(recording.speed) == 0.0
+        return passed.kind == MEAN or find_counts(recording.speed, recording.sample_period) == 0.0
 
     def _describe(self, recording: Recording, timed: Recording) -> list[str]:
         """Say how a recording is read otherwise than it says."""

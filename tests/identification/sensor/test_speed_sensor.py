@@ -16,6 +16,8 @@ from motor_identification.sensor.speed_sensor import (
     NOISE_BEYOND_DIGITS,
     UNTOLD,
     are_smoothed,
+    find_counts,
+    find_noise,
     find_speed_sensor,
 )
 
@@ -113,6 +115,25 @@ def test_a_lattice_of_values_that_are_no_means_over_their_rows_is_what_they_are_
     log = replace(log, info=replace(log.info, speed_window=window))
     sensor = find_speed_sensor(log)
     assert (sensor.step > 0.0, sensor.sigma > 0.0) == (counts, not counts)
+
+
+@pytest.mark.parametrize(
+    ("step", "window", "counts"),
+    [
+        (0.01, 0.05, 0),  # digits of rad/s
+        (0.01 * (1.0 + 1e-4), 0.05, 12565),  # and what is near to them
+        (1e-3 * tau / 60.0, 0.02, 0),  # of rpm: 3,000,000 counts a turn
+        (0.1 * tau / 60.0, 0.025, 0),
+        (0.1 * tau / 60.0, 0.035, 17143),
+    ],
+)
+def test_a_lattice_of_printed_digits_is_none_of_counts(step: float, window: float, counts: int) -> None:
+    """Whatever their noise: 12,579 counts a turn were assumed of two decimals, of a motor whose speed was smoothed."""
+    values = step * np.round(300.0 + 250.0 * np.sin(np.linspace(0.0, 40.0, 1000)))
+    assert find_counts(values, window) == (pytest.approx(step) if counts else 0.0)
+    found, sigma, edges = find_noise(values, np.ones(1000), 0, window)
+    assert (found > 0.0, edges) == (counts > 0, counts)
+    assert counts or sigma >= step / sqrt(12.0)
 
 
 def counted_by_own_rows(uneven: float, edges: int = 96) -> Recording:

@@ -147,6 +147,22 @@ def test_what_lags_in_the_motor_is_no_smoothing(lag: dict[str, float]) -> None:
     assert memory_of(check(noisy(0.5, **lag))) == 0.0
 
 
+def test_a_short_log_tells_a_filter_where_that_is_much_likelier() -> None:
+    some = noisy(0.5).at_rows(np.arange(120))
+    assert memory_of(smoothed(some, 0.7)) == pytest.approx(0.7, abs=0.1)
+    assert memory_of(check(some)) == 0.0
+
+
+@pytest.mark.parametrize("memory", [0.0, 0.8])
+def test_printed_digits_are_no_counts_that_passed_no_filter(memory: float) -> None:
+    """A slow motor's speeds of two decimals lie on a lattice of these, smoothed or not."""
+    slow = noisy(0.5)
+    slow = replace(slow, speed=0.05 * slow.speed)
+    passed = replace(slow, speed=np.round(lfilter([1.0 - memory], [1.0, -memory], slow.speed), 2))
+    assert find_lattice(passed.speed) == pytest.approx(0.01)
+    assert memory_of(check(passed)) == pytest.approx(memory, abs=0.05)
+
+
 def test_hardly_smoothed_or_held_speeds_are_left_as_they_are() -> None:
     assert memory_of(smoothed(noisy(0.5), 0.1)) == 0.0  # worth less than the least that is asked for
     assert memory_of(smoothed(noisy(0.5), 0.35)) == pytest.approx(0.35, abs=0.05)  # and more
@@ -158,7 +174,8 @@ def test_every_limit_decides(monkeypatch: pytest.MonkeyPatch) -> None:
     logged = smoothed(noisy(0.5), 0.7)
     estimate, _ = search_globally(make_problem([logged], ()), SearchConfig())
     assert find_timing([logged], estimate) is not None
-    for limit, value in (("LEAST_GAIN", 1e4), ("LEAST_PART", 10.0), ("LEAST_SPEEDS", 2000)):
+    limits = {"LEAST_GAIN": 1e4, "LEAST_PART": 10.0, "LEAST_SPEEDS": 2000, "LEAST_SHARE": 0.75, "LONGEST": 0.002}
+    for limit, value in limits.items():
         with monkeypatch.context() as patched:
             patched.setattr(smoothing, limit, value)
             found = find_timing([logged], estimate)
