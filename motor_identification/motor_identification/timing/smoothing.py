@@ -44,7 +44,8 @@ AS_LIKELY = 3.0
 # Of log likelihood, from a top to its neighbours: with less between them a parabola finds it. Else half as far from it,
 # so many times at most: counts are whole at one share alone.
 SHARP, HALVINGS = 40.0, 5
-LEAST_SPEEDS = 60
+# And of fewer than MANY speeds more, in all. Measured: 20 to 33 of few that were not filtered, or otherwise.
+LEAST_SPEEDS, MANY, LEAST_GAIN_OF_FEW = 60, 200, 40.0
 # Of the one before: programs that keep less hardly filter. Measured: 0.02 to 0.15 of three logs that nobody filtered.
 LEAST_SHARE = 0.19
 LONGEST = 0.1  # of the speeds: a filter that is later had speeds that hardly moved, whose last digits are likely then
@@ -200,7 +201,8 @@ def _is_worth_it(each: Sequence[Likelihood], likelihood: Likelihood, passed: Spe
     gain = max(one.of(passed) for one in each) - plain
     most = passed.log_likeness * likelihood.count  # of white noise, over what it is taken for
     enough = likelihood.count >= max(LEAST_SPEEDS, passed.delay / LONGEST)
-    return enough and gain > max(LEAST_GAIN, LEAST_PART * most)
+    least = LEAST_GAIN if likelihood.count >= MANY else LEAST_GAIN_OF_FEW
+    return enough and gain > max(least, LEAST_PART * most)
 
 
 def _climb(value: Callable[[float], float], begin: int = 0) -> int:

@@ -147,10 +147,15 @@ def test_what_lags_in_the_motor_is_no_smoothing(lag: dict[str, float]) -> None:
     assert memory_of(check(noisy(0.5, **lag))) == 0.0
 
 
-def test_a_short_log_tells_a_filter_where_that_is_much_likelier() -> None:
+def test_a_short_log_tells_a_filter_where_that_is_much_likelier(monkeypatch: pytest.MonkeyPatch) -> None:
     some = noisy(0.5).at_rows(np.arange(120))
-    assert memory_of(smoothed(some, 0.7)) == pytest.approx(0.7, abs=0.1)
+    logged = smoothed(some, 0.7)
+    assert memory_of(logged) == pytest.approx(0.7, abs=0.1)
     assert memory_of(check(some)) == 0.0
+    monkeypatch.setattr(smoothing, "LEAST_GAIN_OF_FEW", 1e3)
+    assert memory_of(logged) == 0.0
+    monkeypatch.setattr(smoothing, "MANY", 100)
+    assert memory_of(logged) > 0.0
 
 
 @pytest.mark.parametrize("memory", [0.0, 0.8])
