@@ -14,9 +14,9 @@ from motor_identification.diagnosis.evidence.torque_evidence import (
 )
 from motor_identification.diagnosis.fits.disturbed_fit import fit_beside_torque, list_error_data
 from motor_identification.diagnosis.fits.effect_fit import drop_effect
+from motor_identification.diagnosis.fits.starts import list_starts, start_with
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
-from motor_identification.estimation.parameter_space import map_theta
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.noise.gain_learning import learn_errors_of_runs
 from motor_identification.noise.likelihood import estimate_noise, log_likelihood
@@ -82,11 +82,16 @@ def fit_again(model: Model, hold_out: HoldOut) -> Model:
 
 
 def fit_in_place(model: Model, effect: str, other: str, hold_out: HoldOut) -> Model:
-    """Fit a model again with another effect in the place of one, of the same size to begin with."""
+    """Fit a model again with another effect in the place of one, of the same size to begin with.
+
+    What else it needs begins as for any fit: a static friction has a speed, too, and is above the sliding one.
+    """
     bare, size = drop_effect(model.estimate, effect), EFFECT_BY_NAME[effect].parameters[0].name
-    larger = bare.problem.adding(other)
-    values = {EFFECT_BY_NAME[other].parameters[0].name: np.array(model.estimate.parameters.value(size))}
-    theta = map_theta(bare.problem.unknowns, bare.theta, larger.unknowns, values)
+    larger, own = bare.problem.adding(other), EFFECT_BY_NAME[other].parameters[0]
+    usual = list_starts(bare, larger)[0].sizes
+    least = 0.0 if own.at_least is None else {**bare.parameters.values, **usual}[own.at_least]
+    sizes = {**usual, own.name: least + model.estimate.parameters.value(size)}
+    theta = start_with(bare, larger, sizes)
     return fit_again(validate_model(hold_out, Estimate(larger, theta, bare.simulations), model), hold_out)
 
 

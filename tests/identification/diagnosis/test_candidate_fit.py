@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from diagnosed import fitted
+from diagnosed import fitted, with_effect
 
-from motor_identification.diagnosis.candidate_fit import judge_beside_torque, validate_model
+from motor_identification.diagnosis.candidate_fit import fit_in_place, judge_beside_torque, validate_model
 from motor_identification.diagnosis.evidence.torque_evidence import compute_price, score_training
 from motor_identification.diagnosis.fits.disturbed_fit import list_error_data
 from motor_identification.measurement.time_blocks import TimeBlocks
@@ -35,3 +35,14 @@ def test_where_nothing_is_held_out_all_motion_counts_once_less_the_price_of_the_
     alone = score_training(estimate, list_error_data(estimate), beside.learned)
     assert beside.likelihood == alone.likelihood and len(beside.score.moments) == len(alone.moments)
     assert len(model.structure) == 0 or not model.structure[0].certain  # judged by other blocks than it is learnt on
+
+
+def test_a_static_friction_in_the_place_of_a_dead_zone_begins_above_the_sliding_one() -> None:
+    """It has a speed, too, and needs the sliding one: without either a diagnosis ended with an internal error."""
+    estimate, hold_out = fitted(ks=0.4)
+    model = validate_model(hold_out, with_effect(estimate, "dead_zone", {"dead_zone_voltage": 0.2}))
+    other = fit_in_place(model, "dead_zone", "static_friction", hold_out)
+    values = other.estimate.parameters.values
+    assert set(other.effects) == {"coulomb_friction", "static_friction"}
+    assert values["breakaway_voltage"] >= values["ks"] > 0.0 and values["stribeck_speed"] > 0.0
+    assert other.likelihood > model.likelihood  # friction is what is there
