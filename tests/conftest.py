@@ -15,6 +15,9 @@ import motor_identification  # noqa: F401  (before NumPy: it keeps BLAS to one t
 
 # A script's `./test.sh &` starts with SIGINT ignored, and so would all that tests start; no shell could even trap it.
 signal.signal(signal.SIGINT, signal.default_int_handler)
+# Nor does `nohup ./test.sh` start what it tests by `nohup`: a handler keeps the tests from ending, and is not inherited.
+if signal.getsignal(signal.SIGHUP) is signal.SIG_IGN:
+    signal.signal(signal.SIGHUP, lambda number, frame: None)
 
 # A machine may be busy: no test asserts a time.
 settings.register_profile("any machine", deadline=None)
