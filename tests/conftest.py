@@ -15,7 +15,7 @@ import motor_identification  # noqa: F401  (before NumPy: it keeps BLAS to one t
 
 # A script's `./test.sh &` starts with SIGINT ignored, and so would all that tests start; no shell could even trap it.
 signal.signal(signal.SIGINT, signal.default_int_handler)
-# Nor does `nohup ./test.sh` start what it tests by `nohup`: a handler keeps the tests from ending, and is not inherited.
+# Nor is what `nohup ./test.sh` starts meant to outlive its terminal: a handler is not inherited, and the tests go on.
 if signal.getsignal(signal.SIGHUP) is signal.SIG_IGN:
     signal.signal(signal.SIGHUP, lambda number, frame: None)
 
