@@ -13,11 +13,11 @@ import numpy as np
 from motor_identification.estimation.problem import Problem
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.measurement.measured_angle import Track
+from motor_identification.periodic.whitened_run import SAME_INSTANT
 from motor_identification.recording import Floats
 
 SPANS = (1.0, 4.0, 16.0)  # sample periods of the intervals: the noise of an acceleration falls with the square of it
 LEAST_SHARE = 0.5  # of the squared accelerations that a motor alone leaves, which such a load explains
-SAME_INSTANT = 1e-9  # [s] intervals that are no further apart follow each other
 LEAST_PAIRS = 10  # of intervals that follow each other
 
 

@@ -28,7 +28,8 @@ SURE_LACKING = 0.1
 MEDIAN_ERROR = 1.25  # standard errors of a mean that a median has
 MOST_NEIGHBOURS = 100  # which a lateness of 0.56 rows takes; beyond, no lacking row is told
 MOST_LACKING = 0.02, 300  # of the rows, and rows
-# Rows that a step is longer than, as usual, and is a gap: what a board, or a link, did meanwhile no clock says.
+# Rows that a step is longer than, as usual, and is a gap: what a board, or a link, did meanwhile no clock says, and
+# nothing may have been counted. Rows that are a few times as long as others are those of an uneven loop.
 LONGEST = 5.0
 LEAST_RUN_AWAY = 1e-4  # of a row: less is an even clock
 # Of what a clock was estimated to run away, beside none: lateness that is not white looks like running away.

@@ -11,12 +11,12 @@ import numpy as np
 
 from motor_identification.logs.signals import Floats, Signals
 from motor_identification.sensor.parabola_scatter import WINDOW, measure_scatter
+from motor_identification.sensor.row_clock import LONGEST
 from motor_identification.sensor.value_lattice import find_lattice
 
 LEAST_ROWS = 50
 MOST_ROWS = 20_000  # that the motion is looked at in
 IRREGULAR = 0.01  # of a row: standard deviation of the rows' lengths that matters
-LONGEST = 5.0  # rows: what is longer is a gap, in which nothing may have been counted
 FASTEST = 0.5  # quantile of the speed, above which rows tell of their lengths
 TRUSTED = 0.9  # quantile of the scatter that counts: where the voltage jumps no parabola follows
 BETTER = 0.85  # of the scatter that speeds leave as they are: less is left by those of their own rows

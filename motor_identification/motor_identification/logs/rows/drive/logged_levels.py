@@ -9,10 +9,8 @@ import numpy as np
 
 from motor_identification.logs.rows.parts import name_by_voltage
 from motor_identification.logs.signals import Bools, Signals
+from motor_identification.sensor.row_clock import LONGEST
 
-# Rows that a gap is longer than, as of the gaps in which nothing may have been counted (`rows/row_lengths.py`): rows
-# that are a few times as long as others are those of an uneven loop.
-LONGEST = 5.0
 FEWEST = 3  # gaps with another level behind: fewer are stalls by chance
 MOSTLY = 0.9  # of the changes of the level are in gaps: a program that logs each of its commands has them anywhere
 HALF = 0.5  # of the gaps have another level behind: stalls that come at any time seldom do

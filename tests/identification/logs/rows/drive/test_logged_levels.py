@@ -7,8 +7,9 @@ import pytest
 
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.imported import import_log
-from motor_identification.logs.rows.drive.logged_levels import FEWEST, LONGEST, split_between_levels
+from motor_identification.logs.rows.drive.logged_levels import FEWEST, split_between_levels
 from motor_identification.logs.signals import Floats, Signals
+from motor_identification.sensor.row_clock import LONGEST
 
 ROW = 0.1  # s
 
