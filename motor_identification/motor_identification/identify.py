@@ -5,6 +5,7 @@ from dataclasses import replace
 from time import perf_counter
 
 from motor_identification.estimation.direction_correction import correct_directions
+from motor_identification.estimation.kv_split import split_kv_if_needed
 from motor_identification.estimation.miscounts import exclude_miscounts
 from motor_identification.estimation.problem import Problem, make_problem
 from motor_identification.estimation.request import PhysicalRequest, Request, SearchConfig, SearchReport
@@ -67,6 +68,8 @@ def identify(recordings: Sequence[Recording], request: Request, progress: Progre
     counted = exclude_miscounts(directed)
     working.begin("standard errors", DESCENDED, 1.0)
     fit = fit_whitened(counted)
+    if request.physical is None:  # else that says what of kv is back-EMF
+        fit = split_kv_if_needed(fit)
     notes = (*_list_left_out(directed.problem, counted.problem, fit.problem), *_list_doubts(search))
 
     def summarise(one: WhitenedFit) -> Fit:

@@ -116,6 +116,7 @@ EFFECTS = (
         "sag of the supply (supply_sag)",
         (P("sag", "–", 0.0, 0.0, 1.0, starts=(0.05,)),),
         of_supply=True,
+        splits_kv=True,
     ),
     Effect(
         "transport_delay",
@@ -191,6 +192,7 @@ EFFECTS = (
             P("warm_up_time", "s", 1.0, 0.1, 20.0, DURATION, True, starts=(0.15, 0.5, 3.5), usual=(10.0, 0.0)),
         ),
         anywhere=True,
+        splits_kv=True,
     ),
     Effect(
         "missed_edges",
@@ -212,6 +214,10 @@ LAGS = ("transport_delay", *LAGGING)  # what a recording may be late by itself
 EFFECT_BY_NAME = {effect.name: effect for effect in EFFECTS}
 SPECS = BASE + tuple(spec for effect in EFFECTS for spec in effect.parameters)
 SPEC_BY_NAME = {spec.name: spec for spec in SPECS}
+
+# Of kv, what is viscous friction and not back-EMF: told apart only by effects that treat the two differently
+# (`splits_kv`). A motor has it as its torque constant.
+VISCOUS_SHARE = P("viscous_share", "–", 0.0, 0.0, 0.8, starts=(0.1, 0.4))
 
 # The vector the compiled code works on: every parameter in the order of the table, then the supply, then how many times
 # longer than full accuracy allows a piece of the motion may be, then what a measured current adds (`physical/`),
@@ -247,3 +253,8 @@ def normalised(effects: tuple[str, ...]) -> tuple[str, ...]:
 def specs_of(effects: tuple[str, ...]) -> tuple[ParameterSpec, ...]:
     """kv, ka and the parameters of these effects, in the order of the table."""
     return BASE + tuple(spec for name in normalised(effects) for spec in EFFECT_BY_NAME[name].parameters)
+
+
+def do_split_kv(effects: tuple[str, ...]) -> bool:
+    """Whether any of these effects tells back-EMF and viscous friction, which kv is both of, apart."""
+    return any(EFFECT_BY_NAME[name].splits_kv for name in effects)

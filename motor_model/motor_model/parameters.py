@@ -30,8 +30,8 @@ MOST_BACK_EMF = 1.2  # of kv: a fit may find a torque constant a little above it
 class Parameters:
     """kv, ka and the parameters of `effects`, by name, in the units of the effect table.
 
-    With `resistance` the motor has a current; `torque_constant` (in SI units also the back-EMF constant) then says
-    which part of kv is back-EMF, the rest is viscous friction. See `physical/`.
+    `torque_constant` (in SI units also the back-EMF constant) says which part of kv is back-EMF, the rest is viscous
+    friction. With `resistance` the motor has a current. See `physical/`.
 
     Raises:
         ModelError: an unknown effect, a missing, superfluous or non-physical value.
@@ -90,6 +90,11 @@ class Parameters:
     def value(self, name: str) -> float:
         """The parameter's value, or the value that makes its effect vanish if this motor does not have it."""
         return self.values.get(name, SPEC_BY_NAME[name].off)
+
+    @property
+    def viscous_share(self) -> float:
+        """Share of kv that is viscous friction; 0 where it is not known."""
+        return 1.0 - self.torque_constant / self.values["kv"] if self.torque_constant > 0.0 else 0.0
 
     def vector(self) -> NDArray[np.float64]:
         """Every parameter of the table in its order, then max_voltage: what the compiled code takes. Shape (P,)."""

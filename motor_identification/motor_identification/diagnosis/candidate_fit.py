@@ -6,17 +6,25 @@ import numpy as np
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model, Score
+from motor_identification.diagnosis.candidate_test import likelihood_threshold
 from motor_identification.diagnosis.evidence.torque_evidence import (
     compute_price,
     mark_common_set,
     score_held_out,
     score_training,
 )
-from motor_identification.diagnosis.fits.disturbed_fit import fit_beside_torque, list_error_data
+from motor_identification.diagnosis.fits.disturbed_fit import (
+    DisturbedResiduals,
+    fit_beside_torque,
+    list_error_data,
+    make_disturbed_residuals,
+)
 from motor_identification.diagnosis.fits.effect_fit import drop_effect
 from motor_identification.diagnosis.fits.starts import list_starts, start_with
 from motor_identification.estimation.estimate import Estimate
-from motor_identification.estimation.least_squares import fit_speeds
+from motor_identification.estimation.kv_split import can_split_kv, fit_split_kv
+from motor_identification.estimation.least_squares import SpeedResiduals, fit_speeds
+from motor_identification.estimation.problem import Problem
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.noise.gain_learning import learn_errors_of_runs
 from motor_identification.noise.likelihood import estimate_noise, log_likelihood
@@ -92,7 +100,25 @@ def fit_in_place(model: Model, effect: str, other: str, hold_out: HoldOut) -> Mo
     least = 0.0 if own.at_least is None else {**bare.parameters.values, **usual}[own.at_least]
     sizes = {**usual, own.name: least + model.estimate.parameters.value(size)}
     theta = start_with(bare, larger, sizes)
-    return fit_again(validate_model(hold_out, Estimate(larger, theta, bare.simulations), model), hold_out)
+    again = fit_again(validate_model(hold_out, Estimate(larger, theta, bare.simulations), model), hold_out)
+    return split_kv(again, hold_out)
+
+
+def split_kv(model: Model, hold_out: HoldOut) -> Model:
+    """Split kv into back-EMF and viscous friction where an effect tells them apart, and unseen data speak for it."""
+    estimate, errors = model.estimate, model.learned
+    if not can_split_kv(estimate.problem):
+        return model
+
+    def make_target(problem: Problem) -> SpeedResiduals | DisturbedResiduals:
+        if errors is None:
+            return SpeedResiduals(problem)
+        return replace(make_disturbed_residuals(estimate, errors), problem=problem)
+
+    split = validate_model(hold_out, fit_split_kv(estimate, make_target), model)
+    if split.beside_torque and split.likelihood > model.likelihood:
+        split = refine_beside_torque(split, hold_out)
+    return split if split.likelihood - model.likelihood > likelihood_threshold() else model
 
 
 def refit_without(model: Model, effect: str, hold_out: HoldOut) -> Model:

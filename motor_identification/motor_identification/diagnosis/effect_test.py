@@ -8,7 +8,7 @@ from itertools import cycle
 import numpy as np
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_fit import refine_beside_torque, validate_model
+from motor_identification.diagnosis.candidate_fit import refine_beside_torque, split_kv, validate_model
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.evidence.line_evidence import count_waves, drop_chance_harmonics, is_heavy_load
@@ -88,9 +88,9 @@ def _try_effect(current: Model, hold_out: HoldOut, effect: str, least: float) ->
             effect, validate_model(own, current.estimate, current), validate_model(own, larger, current)
         )
     test = CandidateTest(effect, current, validate_model(hold_out, larger, current))
-    if not current.beside_torque or test.evidence <= 0.0:
-        return test
-    return replace(test, model=refine_beside_torque(test.model, hold_out))
+    if current.beside_torque and test.evidence > 0.0:
+        test = replace(test, model=refine_beside_torque(test.model, hold_out))
+    return replace(test, model=split_kv(test.model, hold_out)) if EFFECT_BY_NAME[effect].splits_kv else test
 
 
 def choose_finding(tests: Sequence[CandidateTest]) -> CandidateTest | None:

@@ -13,7 +13,7 @@ from motor_identification.measurement.initial_speed import estimate_initial_spee
 from motor_identification.recording import Floats, Recording, once
 from motor_identification.sensor.noisy_angle import find_plain_speed
 from motor_model.effect import Extent, ParameterSpec
-from motor_model.effects import INDEX, normalised, specs_of
+from motor_model.effects import INDEX, VISCOUS_SHARE, do_split_kv, normalised, specs_of
 from motor_model.parameters import Parameters, neutral
 from motor_model.sample import Measurement
 
@@ -21,6 +21,7 @@ SLOW_SPEED = 0.03  # of the largest speed: slower, a ripple holds the shaft or t
 FEW_COUNTS = 4.0  # a mean speed over so many is wrong by a quarter at most; boxes allow four times as much
 BURSTS, FAR_BEYOND = 0.03, 3.0  # share of speeds that may be false for many rows, and how far beyond all others
 LEAST_REACH = 0.125  # of the largest speed: the box begins at a tenth of kv = voltage / speed
+KV, BACK_EMF = INDEX["kv"], INDEX["torque_constant"]
 TURNING_SPEED = 0.1  # of the largest speed: as slow as a motor turns for long enough to show a ripple
 
 
@@ -28,7 +29,8 @@ class _Plan(NamedTuple):
     """How θ becomes parameter vectors (P,): a fit asks thousands of times."""
 
     neutral: Floats  # (P,) a motor with every effect off
-    places: NDArray[np.int64]  # in it, of every searched parameter
+    places: NDArray[np.int64]  # in it, of every searched parameter that it has,
+    own: NDArray[np.int64]  # and their number among the searched ones
     floors: tuple[tuple[int, int], ...]  # places of what is at least as large as another
     starts: int  # where in θ initial speeds begin
 
@@ -55,6 +57,11 @@ class Unknowns:
         """Names of the physical parameters, in the order of θ; initial speeds come after them."""
         return tuple(spec.name for spec in self.specs)
 
+    @property
+    def splits_kv(self) -> bool:
+        """Whether the share of kv that is viscous friction is an unknown, too."""
+        return VISCOUS_SHARE in self.specs
+
     @cached_property
     def columns(self) -> NDArray[np.int64]:
         """Where in θ each recording has each parameter, shape (R, number of parameters)."""
@@ -77,9 +84,12 @@ class Unknowns:
         plan = self._plan
         vectors = np.empty((len(thetas), len(self.turning), len(plan.neutral)))
         vectors[:] = plan.neutral
-        vectors[:, :, plan.places] = values[:, self.columns]
+        vectors[:, :, plan.places] = values[:, self.columns[:, plan.own]]
         for own, least in plan.floors:
             vectors[:, :, own] = np.maximum(vectors[:, :, own], vectors[:, :, least])
+        if self.splits_kv:
+            share = values[:, self.columns[:, self.names.index(VISCOUS_SHARE.name)]]
+            vectors[:, :, BACK_EMF] = vectors[:, :, KV] * (1.0 - share)
         starts = np.zeros((len(thetas), len(self.turning)))
         starts[:, self.turning] = values[:, plan.starts :]
         return vectors, starts
@@ -87,9 +97,11 @@ class Unknowns:
     @cached_property
     def _plan(self) -> "_Plan":
         floors = [(INDEX[spec.name], INDEX[spec.at_least]) for spec in self.specs if spec.at_least is not None]
+        own = [i for i, name in enumerate(self.names) if name in INDEX]
         return _Plan(
             neutral(self.max_voltage, gear_ratio=self.gear),
-            np.array([INDEX[name] for name in self.names], dtype=np.int64),
+            np.array([INDEX[self.names[i]] for i in own], dtype=np.int64),
+            np.array(own, dtype=np.int64),
             tuple(floors),
             len(self.low) - int(self.turning.sum()),
         )
@@ -97,8 +109,9 @@ class Unknowns:
     def parameters(self, theta: Floats, name: str) -> Parameters:
         """The motor at θ (D,), as the first recording has it."""
         vector = self.decode(theta[None])[0][0, 0]
-        values = {spec: float(vector[INDEX[spec]]) for spec in self.names}
-        return Parameters(values, self.effects, self.max_voltage, name, gear_ratio=self.gear)
+        values = {spec: float(vector[INDEX[spec]]) for spec in self.names if spec in INDEX}
+        constant = float(vector[BACK_EMF]) if self.splits_kv else 0.0
+        return Parameters(values, self.effects, self.max_voltage, name, torque_constant=constant, gear_ratio=self.gear)
 
     def scale_supply(self, theta: Floats, by: float) -> Floats:
         """θ (D,) of the motor that moves as this one does by a supply that is larger by a share: less of every volt."""
@@ -201,9 +214,10 @@ def _finest_cycles(recording: Recording, speed: float) -> float:
     return min(0.5 * edges, seen) if edges else seen
 
 
-def make_unknowns(recordings: Sequence[Recording], effects: tuple[str, ...]) -> Unknowns:
+def make_unknowns(recordings: Sequence[Recording], effects: tuple[str, ...], split: bool = False) -> Unknowns:
     """Make the unknowns of these effects, in a box scaled by the largest voltage, the largest speed and the duration.
 
+    split: whether kv is split into back-EMF and viscous friction, too, where any of the effects tells them apart.
     The initial speed of a motor that already turns at the first sample is searched around what it shows there.
 
     Raises:
@@ -211,6 +225,8 @@ def make_unknowns(recordings: Sequence[Recording], effects: tuple[str, ...]) -> 
     """
     extent = measure_extent(recordings)
     specs = specs_of(effects)
+    if split and do_split_kv(effects):
+        specs = (*specs, VISCOUS_SHARE)
     low, high = [], []
     for spec in specs:
         bounds = spec.box(extent)

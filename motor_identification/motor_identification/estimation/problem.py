@@ -62,9 +62,10 @@ class Problem:
             return (NOWHERE,) * len(self.recordings)
         return tuple(track.at(data.time) for track, data in zip(self.tracks, self.intervals, strict=True))
 
-    def with_effects(self, effects: tuple[str, ...]) -> "Problem":
-        """The problem with other unknowns."""
-        return replace(self, unknowns=make_unknowns(self.recordings, effects))
+    def with_effects(self, effects: tuple[str, ...], split: bool | None = None) -> "Problem":
+        """The problem with other unknowns; kv split (see `make_unknowns`) as told, or as it is now."""
+        split = self.unknowns.splits_kv if split is None else split
+        return replace(self, unknowns=make_unknowns(self.recordings, effects, split))
 
     def adding(self, *effects: str) -> "Problem":
         """The problem with more effects, in the table's order."""

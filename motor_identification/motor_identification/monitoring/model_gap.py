@@ -16,6 +16,7 @@ from motor_identification.timing.speed_filter import SpeedFilter
 from motor_identification.timing.timing import list_readings
 from motor_identification.uncertainty.standard_errors import estimate_uncertainty
 from motor_identification.validation.nuisance_fit import fit_nuisance_parameters
+from motor_model.effects import SPEC_BY_NAME, VISCOUS_SHARE
 from motor_model.parameters import Parameters
 from motor_model.simulate import NOWHERE, roll_out
 
@@ -74,7 +75,9 @@ def measure_gap(motion: Recording | Still, model: Model) -> Gap:
 
 def _measure_moving(motion: Recording, model: Model) -> Gap:
     problem = make_problem([motion], ())
-    known = _place(Estimate(problem.with_effects(model.parameters.effects), np.empty(0)), model.parameters)
+    split = model.parameters.viscous_share > 0.0
+    larger = problem.with_effects(model.parameters.effects, split)
+    known = _place(Estimate(larger, np.empty(0)), model.parameters)
     estimate = fit_nuisance_parameters(problem, known, (np.ones(len(problem.weight), dtype=bool),))
     residuals = estimate.problem.residuals(estimate.theta)
     weight, speed = problem.weight, problem.speed
@@ -101,7 +104,7 @@ def find_changes(gap: Gap, model: Model) -> tuple[Change, ...]:
     return tuple(
         Change(name, now.parameters.value(name), errors[name], model.parameters.value(name))
         for name, spec in zip(unknowns.names, unknowns.specs, strict=True)
-        if not spec.of_recording and _differs(model.identified, now, name)
+        if not spec.of_recording and name in SPEC_BY_NAME and _differs(model.identified, now, name)
     )
 
 
@@ -117,7 +120,7 @@ def _place(estimate: Estimate, parameters: Parameters) -> Estimate:
     unknowns = estimate.problem.unknowns
     theta = 0.5 * (unknowns.low + unknowns.high)
     for i, spec in enumerate(unknowns.specs):
-        value = parameters.value(spec.name)
+        value = parameters.viscous_share if spec is VISCOUS_SHARE else parameters.value(spec.name)
         theta[i] = np.log(max(value, np.exp(unknowns.low[i]))) if spec.logarithmic else value
     return Estimate(estimate.problem, theta)
 

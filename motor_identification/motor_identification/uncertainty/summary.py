@@ -6,18 +6,21 @@ from math import nan
 import numpy as np
 
 from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.parameter_space import Unknowns
 from motor_identification.estimation.problem import Problem
 from motor_identification.estimation.request import SearchReport
 from motor_identification.estimation.whitened_fit import WhitenedFit
+from motor_identification.recording import Floats
 from motor_identification.uncertainty.absence import find_absent_effects
 from motor_identification.uncertainty.identifiability import find_confusable_effects, suggest_profile
 from motor_identification.uncertainty.recording_consistency import compare_recordings, describe_worst_dissent
 from motor_identification.uncertainty.result import Fit
 from motor_identification.uncertainty.standard_errors import estimate_uncertainty
 from motor_model.effect import ParameterSpec
-from motor_model.effects import EFFECT_BY_NAME, SPEC_BY_NAME
+from motor_model.effects import EFFECT_BY_NAME, SPEC_BY_NAME, VISCOUS_SHARE
 
 ON_BOUND = 1e-4  # of the box: how near its edge a parameter counts as on it
+SPLIT = "Of kv, {:.0f} ± {:.1g} % is viscous friction and the rest back-EMF, which a motor with {} tells apart."
 NO_VARIANCE = 1e-18  # of the largest speed squared: a measured speed that does not vary, but for rounding
 
 
@@ -49,7 +52,7 @@ def summarise_fit(
         parameters=fit.estimate.parameters,
         standard_errors={name: nan if name in noise else error for name, error in errors.items()},
         correlations=sure.correlations_of(unknowns.names),
-        on_bound=find_bounds_hit(fit.estimate),
+        on_bound={name: hit for name, hit in find_bounds_hit(fit.estimate).items() if name in SPEC_BY_NAME},
         not_identifiable=open_ones,
         not_told_apart=alike,
         absent=(*absent, *(name for name in asked if name not in unknowns.effects)),
@@ -63,7 +66,7 @@ def summarise_fit(
         search=search,
         evaluations=fit.estimate.simulations,
         uris=tuple(recording.uri for recording in fit.problem.recordings),
-        notes=(*_list_own_notes(fit), *notes),
+        notes=(*_list_own_notes(fit), *_describe_split(unknowns, theta, errors), *notes),
         duration=elapsed(),
     )
 
@@ -79,6 +82,15 @@ def _list_own_notes(fit: WhitenedFit) -> list[str]:
     """List what the recordings say of themselves, and where they disagree."""
     notes = [note for recording in fit.problem.recordings for note in recording.notes]
     return notes + describe_worst_dissent(compare_recordings(fit))
+
+
+def _describe_split(unknowns: Unknowns, theta: Floats, errors: dict[str, float]) -> list[str]:
+    """One sentence where kv was split into viscous friction and back-EMF."""
+    if not unknowns.splits_kv:
+        return []
+    share = float(theta[unknowns.names.index(VISCOUS_SHARE.name)])
+    by = " and ".join(name for name in unknowns.effects if EFFECT_BY_NAME[name].splits_kv)
+    return [SPLIT.format(100.0 * share, 100.0 * errors[VISCOUS_SHARE.name], by)]
 
 
 def _own(effect: str) -> tuple[ParameterSpec, ...]:

@@ -52,7 +52,7 @@ def fit_nuisance_parameters(problem: Problem, fitted: Estimate, blocks: tuple[Bo
     blocks: which intervals of every recording its nuisance parameters may be fitted on.
     """
     unknowns, used = fitted.problem.unknowns, np.concatenate(blocks)
-    here = problem.with_effects(periodic_fit.drop_periodic_effects(unknowns.effects))
+    here = problem.with_effects(periodic_fit.drop_periodic_effects(unknowns.effects), unknowns.splits_kv)
     estimate = _fit(Estimate(here, _map_motor(unknowns, fitted.theta, here.unknowns)), used)
     for effect in unknowns.effects:
         if EFFECT_BY_NAME[effect].periodic:

@@ -75,8 +75,8 @@ def lumped_values(physical: Mapping[str, float]) -> dict[str, float]:
 
 
 def physical_values_of(parameters: Parameters) -> dict[str, float]:
-    """Convert a motor whose resistance is known; empty where it is not."""
+    """Convert a motor; of one whose resistance is not known, the torque constant where that is."""
     if parameters.resistance == 0.0:
-        return {}
+        return {CONSTANT.name: parameters.torque_constant} if parameters.torque_constant > 0.0 else {}
     constant = parameters.torque_constant or parameters.values["kv"]
     return physical_values(parameters.values, parameters.resistance, constant)

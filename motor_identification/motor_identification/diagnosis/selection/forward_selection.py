@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_fit import refit_without
+from motor_identification.diagnosis.candidate_fit import refit_without, split_kv
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold, share_explained
 from motor_identification.diagnosis.effect_test import (
     EFFECT_ORDER,
@@ -40,6 +40,7 @@ def select_forward(
         reporter.keep(selection)
         if known and set(selection.model.effects) == known:
             return selection
+        selection = replace(selection, model=split_kv(selection.model, selection.hold_out))
         selection, tests = verify_findings(selection, _try_all_effects(selection, reporter))
         best = choose_finding(tests)
         if len(selection.steps) >= thresholds.MOST_FINDINGS or (best is not None and not _may_add(best, selection)):
