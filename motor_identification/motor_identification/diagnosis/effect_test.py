@@ -5,8 +5,6 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from itertools import cycle
 
-import numpy as np
-
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import refine_beside_torque, split_kv, validate_model
 from motor_identification.diagnosis.candidate_model import Model
@@ -14,7 +12,6 @@ from motor_identification.diagnosis.candidate_test import CandidateTest, likelih
 from motor_identification.diagnosis.evidence.line_evidence import count_waves, drop_chance_harmonics, is_heavy_load
 from motor_identification.diagnosis.fits.effect_fit import fit_with_effect
 from motor_identification.measurement.command_swing import is_sweep
-from motor_identification.recording import Floats
 from motor_identification.validation.held_out import HeldOut
 from motor_identification.validation.hold_out import HoldOut
 from motor_identification.validation.instants import (
@@ -163,62 +160,6 @@ def is_supported(test: CandidateTest) -> bool:
 def count_parameters(effect: str) -> int:
     """Count the parameters of an effect."""
     return len(EFFECT_BY_NAME[effect].parameters)
-
-
-def find_rivals(found: CandidateTest, tests: Sequence[CandidateTest]) -> tuple[str, ...]:
-    """Find the effects that explain as much as a finding does, of held-out or of all data, with no more parameters."""
-    others = [test for test in drop_chance_harmonics(tests) if test.effect != found.effect]
-    others = [test for test in others if test.evidence > likelihood_threshold()]
-    alike = [
-        test.effect
-        for test in others
-        if is_alike(
-            found.evidence - test.evidence,
-            found.evidence_of_all - test.evidence_of_all,
-            np.subtract(found.model.score.by_recording, test.model.score.by_recording),
-        )
-        or holds_nearly_as_well(test, found.effect, found.evidence)
-    ]
-    return sort_by_table(name for name in alike if count_parameters(name) <= count_parameters(found.effect))
-
-
-def holds_nearly_as_well(test: CandidateTest, effect: str, evidence: float) -> bool:
-    """Decide whether a more common effect does most of what another does, where both hold the motor at rest.
-
-    They differ while the motor slows down and turns back: what nobody named bends a motion there, too.
-    effect, evidence: of the one that was found, beside the model that the test is beside.
-    """
-    common = EFFECT_ORDER[test.effect] < EFFECT_ORDER[effect]
-    return both_hold(test.effect, effect) and common and test.evidence > (1.0 - thresholds.HOLDING_LEAD) * evidence
-
-
-def both_hold(one: str, other: str) -> bool:
-    """Decide whether two effects hold the motor at rest under a voltage."""
-    return EFFECT_BY_NAME[one].holds and EFFECT_BY_NAME[other].holds
-
-
-def is_alike(gain: float, of_all: float, by_recording: Floats) -> bool:
-    """Decide whether a finding is told from another effect by little, by unseen or by all data, or by few recordings.
-
-    Where both models are off, one part of the motion chooses between them: the held-out one, or a few of many runs.
-    gain, of_all: of log likelihood, of unseen and of all data; by_recording: of those it was fitted to, shape (K,).
-    """
-    return min(gain, of_all) < thresholds.RIVAL_MARGIN or is_against_most(by_recording)
-
-
-def are_alike(other: Model, found: Model) -> bool:
-    """Decide the same of two models that were judged by the same data."""
-    one, two = found.score, other.score
-    gains = np.subtract(one.by_recording, two.by_recording)
-    return is_alike(one.likelihood - two.likelihood, one.of_all - two.of_all, gains)
-
-
-def is_against_most(gains: Floats) -> bool:
-    """Decide whether most recordings (K,) lose log likelihood, together more than chance, without the few best."""
-    if len(gains) < thresholds.FEWEST_RUNS:
-        return False
-    most = np.sort(gains)[: len(gains) - int(thresholds.FEW_RUNS * len(gains))]
-    return bool(np.sum(most) < -thresholds.COMMON_LIKELIHOOD and np.count_nonzero(gains < 0.0) > 0.5 * len(gains))
 
 
 def sort_by_table(names: Iterable[str]) -> tuple[str, ...]:

@@ -15,11 +15,11 @@ from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.effect_test import (
     choose_finding,
     count_parameters,
-    find_rivals,
     list_candidates,
     sort_by_table,
     try_effects,
 )
+from motor_identification.diagnosis.evidence.likeness import find_rivals
 from motor_identification.diagnosis.evidence.line_evidence import adds_only_lines, count_waves
 from motor_identification.recording import Floats, Recording
 from motor_model.effects import EFFECTS
@@ -119,32 +119,6 @@ def test_what_predicts_worse_is_none_where_another_takes_away_most(
     monkeypatch.setattr(CandidateTest, "relevant", True)
     chosen = choose_finding(tests)
     assert chosen is not None and chosen.effect == first
-
-
-def test_rivals_are_likely_themselves() -> None:
-    before = stub_model(5.0)
-    weak = stub_test("load_bias", before, 1.0, 9.0)
-    assert find_rivals(weak, [weak, stub_test("dead_zone", before, 1.0, 7.0)]) == ()  # below what chance may do
-
-
-@pytest.mark.parametrize(
-    ("found", "other", "share", "alike"),
-    [
-        ("dead_zone", "coulomb_friction", 1.0 - 0.99 * thresholds.HOLDING_LEAD, True),
-        ("dead_zone", "coulomb_friction", 1.0 - 1.01 * thresholds.HOLDING_LEAD, False),
-        ("coulomb_friction", "dead_zone", 0.9, False),  # every motor has friction
-        ("dead_zone", "load_bias", 0.9, False),  # which holds nothing
-        ("supply_sag", "coulomb_friction", 0.9, False),
-    ],
-)
-def test_a_friction_that_does_most_of_what_a_dead_zone_does_is_its_rival(
-    found: str, other: str, share: float, alike: bool
-) -> None:
-    """Beside a warming-up that had no name, a dead zone was likelier by e^139 than nothing, and a friction by e^132."""
-    before = stub_model(5.0)
-    best = stub_test(found, before, 1.0, 1000.0)
-    rivals = find_rivals(best, [best, stub_test(other, before, 1.5, 1000.0 * share)])
-    assert rivals == ((other,) if alike else ())
 
 
 def test_effects_are_sorted_as_in_the_table() -> None:

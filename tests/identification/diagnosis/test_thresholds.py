@@ -16,10 +16,8 @@ from motor_identification.diagnosis.candidate_test import (
     likelihood_threshold,
     predicts_far_worse,
 )
-from motor_identification.diagnosis.effect_test import (
-    choose_finding,
-    find_rivals,
-)
+from motor_identification.diagnosis.effect_test import choose_finding
+from motor_identification.diagnosis.evidence.likeness import find_rivals
 from motor_identification.recording import Recording
 from motor_model.effects import EFFECTS
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters

@@ -14,11 +14,11 @@ from motor_identification.diagnosis.effect_test import (
     EFFECT_ORDER,
     choose_finding,
     count_parameters,
-    find_rivals,
     is_supported,
     list_candidates,
     try_effects,
 )
+from motor_identification.diagnosis.evidence.likeness import find_rivals
 from motor_identification.diagnosis.selection.promised_pairs import (
     find_promised_pair,
     list_promised,

@@ -8,16 +8,13 @@ from motor_identification.diagnosis.candidate_fit import fit_again, fit_in_place
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.effect_test import (
-    are_alike,
-    both_hold,
     count_parameters,
-    find_rivals,
-    holds_nearly_as_well,
     is_there_from_the_start,
     list_candidates,
     sort_by_table,
     try_effects,
 )
+from motor_identification.diagnosis.evidence.likeness import are_alike, both_hold, find_rivals, holds_nearly_as_well
 from motor_identification.diagnosis.evidence.line_evidence import drop_chance_harmonics
 from motor_identification.diagnosis.evidence.replacement import choose_better, find_loss
 from motor_identification.diagnosis.selection.selection import Selection, SelectionStep, begin_beside_torque
