@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_fit import fit_again, fit_in_place, refine_beside_torque, refit_without
+from motor_identification.diagnosis.candidate_fit import refit_without
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.effect_test import (
@@ -14,13 +14,18 @@ from motor_identification.diagnosis.effect_test import (
     sort_by_table,
     try_effects,
 )
-from motor_identification.diagnosis.evidence.likeness import are_alike, both_hold, find_rivals, holds_nearly_as_well
+from motor_identification.diagnosis.evidence.likeness import are_alike, find_rivals, holds_nearly_as_well
 from motor_identification.diagnosis.evidence.line_evidence import drop_chance_harmonics
 from motor_identification.diagnosis.evidence.replacement import choose_better, find_loss
+from motor_identification.diagnosis.selection.rival_fits import (
+    catch_up,
+    settle,
+    start_from_same_size,
+    start_where_found,
+)
 from motor_identification.diagnosis.selection.selection import Selection, SelectionStep, begin_beside_torque
 from motor_identification.diagnosis.selection.stand_ins import has_same_evidence, is_own_evidence
 from motor_identification.progress import ProgressReporter
-from motor_identification.validation.hold_out import HoldOut
 from motor_model.effects import EFFECT_BY_NAME, LAGS
 
 
@@ -38,11 +43,11 @@ def try_in_place(
 
     tried = try_effects(without, selection.hold_out, others, selection.workers, heard)
     tried = [test for test in drop_chance_harmonics(tried) if not is_there_from_the_start(test)]
-    tried = [_start_where_found(test, step, current, selection.hold_out) for test in tried]
-    tried = [_start_from_same_size(test, effect, current, selection.hold_out) for test in tried]
-    settled = [_settle(test, current, selection.hold_out) for test in tried]
+    tried = [start_where_found(test, step, current, selection.hold_out) for test in tried]
+    tried = [start_from_same_size(test, effect, current, selection.hold_out) for test in tried]
+    settled = [settle(test, current, selection.hold_out) for test in tried]
     tests = sorted(settled, key=lambda test: test.evidence, reverse=True)
-    current = _catch_up(current, tests, selection.hold_out)
+    current = catch_up(current, tests, selection.hold_out)
     better = choose_better(_drop_without_own_evidence(tests, effect, without, current), effect, current)
     if better is None:
         return selection.replace_step(step, replace(step, rivals=_list_rivals(tests, effect, current)), current)
@@ -83,7 +88,7 @@ def check_beside_torque(selection: Selection, reporter: ProgressReporter) -> Sel
         tests = try_effects(without, begun.hold_out, others, begun.workers, lambda test: None)
         tests = drop_chance_harmonics(tests)
         told = [test for test in tests if test.evidence > thresholds.TIE_LIKELIHOOD]  # what does nothing is no rival
-        rivals = _list_rivals([_settle(test, current, begun.hold_out) for test in told], effect, current)
+        rivals = _list_rivals([settle(test, current, begun.hold_out) for test in told], effect, current)
         steps.append(replace(step, rivals=sort_by_table({*step.rivals, *rivals})))
     model = selection.model
     for effect in [name for name in model.effects if name not in begun.model.effects]:
@@ -123,47 +128,6 @@ def _list_rivals(tests: Sequence[CandidateTest], effect: str, current: Model) ->
     return sort_by_table(name for name in alike if count_parameters(name) <= count_parameters(effect))
 
 
-def _start_where_found(test: CandidateTest, step: SelectionStep, current: Model, hold_out: HoldOut) -> CandidateTest:
-    """Fit a rival of a step beside a random torque from where it did as well without one, too.
-
-    The torque that a model leaves without both is most of what they explain: from there a fit may end far away.
-    """
-    alike = find_loss(test, current) < thresholds.RIVAL_MARGIN
-    if not current.beside_torque or test.effect not in step.rivals or alike:
-        return test
-    effects = set(test.model.effects)
-    found = (one.model for one in step.tests if one.effect == test.effect and set(one.model.effects) == effects)
-    begin = next(found, None)
-    if begin is None or begin.beside_torque:
-        return test
-    model = replace(test.model, learned=current.learned)
-    return replace(test, model=refine_beside_torque(model, hold_out, begin.estimate))
-
-
-def _start_from_same_size(test: CandidateTest, effect: str, current: Model, hold_out: HoldOut) -> CandidateTest:
-    """Fit what holds the motor, in the place of another effect that does, from that one's size and motion, too.
-
-    The model without both may be far from either: beside a random torque, or where a ripple follows what they do.
-    """
-    if not both_hold(test.effect, effect) or find_loss(test, current) < thresholds.RIVAL_MARGIN:
-        return test
-    again = fit_in_place(current, effect, test.effect, hold_out)
-    return replace(test, model=again) if again.likelihood > test.model.likelihood else test
-
-
-def _settle(test: CandidateTest, current: Model, hold_out: HoldOut) -> CandidateTest:
-    """Fit to the end what leads to much the same motion as the current model but seems less likely.
-
-    A candidate's fit ends early: where the sensor is fine, one that is a hundred-thousandth short, and beside a torque
-    one that is 2 % short, is less likely by a hundred.
-    """
-    model = test.model
-    if model.held.gap > thresholds.GAP_CHANCE * current.held.gap or model.likelihood >= current.likelihood:
-        return test
-    again = fit_again(model, hold_out)
-    return replace(test, model=again) if again.likelihood > model.likelihood else test
-
-
 def _is_contradicted(effect: str, better: CandidateTest, current: Model) -> bool:
     """Decide whether a lag in the place of another one is likelier, but not by far, and leaves more of unseen motion.
 
@@ -179,15 +143,6 @@ def _is_as_likely_from_there(effect: str, better: CandidateTest, selection: Sele
     bare = refit_without(better.model, better.effect, selection.hold_out)
     (test,) = try_effects(bare, selection.hold_out, [effect], selection.workers, lambda test: None)
     return are_alike(test.model, better.model)
-
-
-def _catch_up(current: Model, tests: Sequence[CandidateTest], hold_out: HoldOut) -> Model:
-    """Fit the current model to the end, too, where a test's leads to much the same motion and seems likelier."""
-    near = thresholds.GAP_CHANCE * current.held.gap
-    if not any(test.model.likelihood > current.likelihood and test.model.held.gap <= near for test in tests):
-        return current
-    again = fit_again(current, hold_out)
-    return again if again.likelihood > current.likelihood else current
 
 
 def list_replacements(step: SelectionStep, without: Sequence[str], current: Sequence[str]) -> list[str]:

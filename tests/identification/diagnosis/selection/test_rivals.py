@@ -1,7 +1,6 @@
 """What is tried in the place of a finding: what replaces it, and what is its rival."""
 
 from dataclasses import replace
-from typing import cast
 
 import pytest
 from diagnosed import fitted
@@ -19,8 +18,6 @@ from motor_identification.diagnosis.selection.rivals import (
     list_replacements,
 )
 from motor_identification.diagnosis.selection.selection import SelectionStep
-from motor_identification.estimation.estimate import Estimate
-from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter
 from motor_identification.validation.hold_out import HoldOut
 
@@ -52,22 +49,6 @@ def test_replacements_were_likely_where_it_was_found_and_are_not_there_already()
         "dead_zone",
     ]  # and what was lost since
     assert list_replacements(beside, (), ("coulomb_friction",)) == ["load_bias", "dead_zone", "quadratic_drag"]
-
-
-@pytest.mark.parametrize(
-    ("gap", "likelihood", "settled"),
-    [(1.09, -600.0, True), (1.11, -600.0, False), (1.09, -499.0, False)],
-)
-def test_what_moves_nearly_alike_is_fitted_to_the_end_before_it_is_called_less_likely(
-    monkeypatch: pytest.MonkeyPatch, gap: float, likelihood: float, settled: bool
-) -> None:
-    current = stub_model(1.0, 0.0, likelihood=-500.0)
-    tried = CandidateTest("load_bias", stub_model(2.0, 0.0), stub_model(gap, 0.0, likelihood=likelihood))
-    for end, better in ((-500.5, True), (-600.5, False)):
-        again = stub_model(1.0, 0.0, likelihood=end)
-        monkeypatch.setattr(module, "fit_again", lambda model, hold_out, again=again: again)
-        found = module._settle(tried, current, cast(HoldOut, None)).model
-        assert found is (again if settled and better else tried.model)
 
 
 @pytest.mark.parametrize(
@@ -129,54 +110,6 @@ def test_what_the_torque_that_is_left_has_no_need_of_is_dropped(
 
 
 @pytest.mark.parametrize(
-    ("gap", "likelihood", "again", "caught_up"),
-    [
-        (BELOW * thresholds.GAP_CHANCE, -499.0, -440.0, True),  # the other was fitted further, and is no better
-        (ABOVE * thresholds.GAP_CHANCE, -499.0, -440.0, False),
-        (BELOW * thresholds.GAP_CHANCE, -501.0, -440.0, False),
-        (BELOW * thresholds.GAP_CHANCE, -499.0, -510.0, False),
-    ],
-)
-def test_the_model_is_fitted_to_the_end_before_another_is_called_likelier(
-    monkeypatch: pytest.MonkeyPatch, gap: float, likelihood: float, again: float, caught_up: bool
-) -> None:
-    current, fitted_again = stub_model(1.0, 0.0, likelihood=-500.0), stub_model(1.0, 0.0, likelihood=again)
-    test = CandidateTest("load_step", stub_model(9.0), stub_model(gap, 0.0, likelihood=likelihood))
-    monkeypatch.setattr(module, "fit_again", lambda *_: fitted_again)
-    left = module._catch_up(current, [test], cast(HoldOut, None))
-    assert left is (fitted_again if caught_up else current)
-
-
-@pytest.mark.parametrize(
-    ("loss", "beside", "rivals", "begun"),
-    [
-        (ABOVE * thresholds.RIVAL_MARGIN, True, ("coulomb_friction",), True),
-        (BELOW * thresholds.RIVAL_MARGIN, True, ("coulomb_friction",), False),  # it is a rival already
-        (ABOVE * thresholds.RIVAL_MARGIN, False, ("coulomb_friction",), False),
-        (ABOVE * thresholds.RIVAL_MARGIN, True, (), False),
-    ],
-)
-def test_a_rival_is_fitted_beside_a_torque_from_where_it_did_as_well_without(
-    monkeypatch: pytest.MonkeyPatch, loss: float, beside: bool, rivals: tuple[str, ...], begun: bool
-) -> None:
-    """The torque that is left without both is most of what they explain: from there the motor ran away."""
-    before, plain, better = stub_model(9.0), with_effects(stub_model(1.0), "coulomb_friction"), stub_model(1.0)
-    plain = replace(plain, estimate=cast(Estimate, object()))
-    found = CandidateTest("dead_zone", before, with_effects(stub_model(1.0), "dead_zone"))
-    step = SelectionStep(before, found, (found, CandidateTest("coulomb_friction", before, plain)), rivals, 0.99)
-    astray = with_effects(stub_model(1.0, likelihood=-loss), "coulomb_friction")
-    current = replace(stub_model(1.0), learned=ErrorModel(0.0, 0.0, 0.1, 0.1) if beside else None)
-    monkeypatch.setattr(module, "find_loss", lambda test, model: loss)
-    monkeypatch.setattr(module, "refine_beside_torque", lambda model, hold_out, begin: (model.learned, begin, better))
-    test = CandidateTest("coulomb_friction", before, astray)
-    left = module._start_where_found(test, step, current, cast(HoldOut, None))
-    if begun:
-        assert left.model == (current.learned, plain.estimate, better)
-    else:
-        assert left is test
-
-
-@pytest.mark.parametrize(
     ("effect", "instead", "loss", "alike"),
     [
         ("coulomb_friction", "load_bias", BELOW * thresholds.RIVAL_MARGIN, True),  # the same, where nothing turns back
@@ -221,7 +154,7 @@ def test_what_is_there_from_the_start_takes_no_place(monkeypatch: pytest.MonkeyP
     current = with_effects(stub_model(2.0, likelihood=-200.0), "coulomb_friction")
     step = step_of(CandidateTest("coulomb_friction", without, current), stub_test("load_step", without, 2.0, 600.0))
     load = CandidateTest("load_step", without, with_effects(stub_model(1.5, likelihood=-100.0), "load_step"))
-    monkeypatch.setattr(module, "_catch_up", lambda current, *_: current)
+    monkeypatch.setattr(module, "catch_up", lambda current, *_: current)
     monkeypatch.setattr(module, "try_effects", lambda *_: [load])
     monkeypatch.setattr(module, "is_there_from_the_start", lambda test: at_once)
     monkeypatch.setattr(module, "is_own_evidence", lambda *_: False)
@@ -251,7 +184,7 @@ def test_what_is_replaced_by_what_leaves_more_is_its_rival(
         stub_model(gap * thresholds.SAME_GAP * 2.0, likelihood=gain * thresholds.CONTRADICTED - 200.0),
         "armature_inductance",
     )
-    monkeypatch.setattr(module, "_catch_up", lambda current, *_: current)
+    monkeypatch.setattr(module, "catch_up", lambda current, *_: current)
     monkeypatch.setattr(module, "try_effects", lambda *_: [CandidateTest("armature_inductance", without, instead)])
     monkeypatch.setattr(module, "_is_as_likely_from_there", lambda *_: False)
     monkeypatch.setattr(module, "is_own_evidence", lambda *_: False)
@@ -281,33 +214,12 @@ def test_a_friction_in_the_place_of_a_dead_zone_is_its_rival_unless_that_is_far_
     current = with_effects(stub_model(2.0, likelihood=-200.0), effect)
     step = step_of(CandidateTest(effect, without, current), stub_test(instead, without, 2.0, 600.0))
     other = with_effects(stub_model(2.0, likelihood=gain - 200.0), instead)
-    monkeypatch.setattr(module, "_catch_up", lambda current, *_: current)
-    monkeypatch.setattr(module, "_start_from_same_size", lambda test, *_: test)
-    monkeypatch.setattr(module, "_settle", lambda test, *_: test)
+    monkeypatch.setattr(module, "catch_up", lambda current, *_: current)
+    monkeypatch.setattr(module, "start_from_same_size", lambda test, *_: test)
+    monkeypatch.setattr(module, "settle", lambda test, *_: test)
     monkeypatch.setattr(module, "try_effects", lambda *_: [CandidateTest(instead, without, other)])
     monkeypatch.setattr(module, "_is_as_likely_from_there", lambda *_: False)
     monkeypatch.setattr(module, "is_own_evidence", lambda *_: False)
     selection = replace(stub_selection(2.0, step), model=current)
     (left,) = module.try_in_place(selection, step, without, current, SILENT).steps
     assert (left.found.effect, left.rivals) == (found, rivals)
-
-
-@pytest.mark.parametrize(
-    ("effect", "instead", "loss", "end", "again"),
-    [
-        ("dead_zone", "coulomb_friction", ABOVE, 50.0, True),
-        ("dead_zone", "coulomb_friction", ABOVE, -50.0, False),  # which leads to worse
-        ("dead_zone", "coulomb_friction", BELOW, 50.0, False),  # it is a rival already
-        ("dead_zone", "load_bias", ABOVE, 50.0, False),  # which holds nothing
-    ],
-)
-def test_what_holds_the_motor_is_fitted_from_the_size_of_what_it_stands_in_for(
-    monkeypatch: pytest.MonkeyPatch, effect: str, instead: str, loss: float, end: float, again: bool
-) -> None:
-    """Beside a ripple a friction ended 12 % short of the gap that it leaves from a dead zone's size."""
-    current = stub_model(1.0)
-    test = CandidateTest(instead, stub_model(9.0), stub_model(2.0, likelihood=-loss * thresholds.RIVAL_MARGIN))
-    better = stub_model(1.0, likelihood=test.model.likelihood + end)
-    monkeypatch.setattr(module, "fit_in_place", lambda *_: better)
-    left = module._start_from_same_size(test, effect, current, cast(HoldOut, None))
-    assert left.model is (better if again else test.model)
