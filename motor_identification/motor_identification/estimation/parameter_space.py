@@ -3,26 +3,21 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import inf, log1p, pi
+from math import log1p
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from motor_identification.estimation.extent import measure_extent
 from motor_identification.measurement.initial_speed import estimate_initial_speed
 from motor_identification.recording import Floats, Recording, once
-from motor_identification.sensor.noisy_angle import find_plain_speed
 from motor_model.effect import Extent, ParameterSpec
 from motor_model.effects import INDEX, VISCOUS_SHARE, do_split_kv, normalised, specs_of
 from motor_model.parameters import Parameters, neutral
-from motor_model.sample import Measurement
 
 SLOW_SPEED = 0.03  # of the largest speed: slower, a ripple holds the shaft or turns it back
-FEW_COUNTS = 4.0  # a mean speed over so many is wrong by a quarter at most; boxes allow four times as much
-BURSTS, FAR_BEYOND = 0.03, 3.0  # share of speeds that may be false for many rows, and how far beyond all others
-LEAST_REACH = 0.125  # of the largest speed: the box begins at a tenth of kv = voltage / speed
 KV, BACK_EMF = INDEX["kv"], INDEX["torque_constant"]
-TURNING_SPEED = 0.1  # of the largest speed: as slow as a motor turns for long enough to show a ripple
 
 
 class _Plan(NamedTuple):
@@ -149,69 +144,12 @@ def set_values(unknowns: Unknowns, theta: Floats, values: Mapping[str, Floats]) 
     return np.clip(moved, unknowns.low, unknowns.high)
 
 
-@once
-def _reach_of(recording: Recording) -> float:
-    return _reach(find_plain_speed(recording))
-
-
-def _reach(speed: Floats) -> float:
-    """[rad/s] largest speed that two samples in a row report, so that one false edge does not move the search box.
-
-    Where a sample is hardly longer than a count, its speed is none or several times too high (one count of 96 in a
-    millisecond is 65 rad/s): then it is the largest mean over so many samples that a few counts are in it.
-    """
-    size = np.abs(speed)
-    in_a_row = _without_bursts(np.minimum(size[1:], size[:-1]))
-    count = float(size[size > 0.0].min(initial=inf))  # the smallest speed, which is a count a sample where they are so
-    if in_a_row >= 2.0 * count or count == inf:
-        return in_a_row
-    travel, rows = np.concatenate(([0.0], np.cumsum(speed))), 4
-    while rows < len(travel):
-        most = float(np.abs(travel[rows:] - travel[:-rows]).max())
-        if most >= FEW_COUNTS * count:
-            return most / rows
-        rows *= 2
-    return in_a_row or float(size.max())
-
-
-def _without_bursts(size: Floats) -> float:
-    """[rad/s] largest of speeds' sizes (K,); where a few are far beyond all others, what the others reach.
-
-    They may be what a filter makes of a jump, at a potentiometer's gap or a lost line, for many rows: no motor. If they
-    are motion after all, the box still holds it: no less than LEAST_REACH of them is returned.
-    """
-    largest, moving = float(size.max()), size[size > 0.0]
-    usual = float(np.quantile(moving, 1.0 - BURSTS)) if len(moving) else 0.0
-    return max(usual, LEAST_REACH * largest) if largest > FAR_BEYOND * usual else largest
-
-
 def _turning_speeds(recordings: Sequence[Recording]) -> Floats:
     """[rad/s] at the first sample of recordings that begin on a moving motor, 0 of the others, shape (R,)."""
     return np.array([_turning_speed(recording) for recording in recordings])
 
 
 _turning_speed = once(estimate_initial_speed)
-
-
-def measure_extent(recordings: Sequence[Recording]) -> Extent:
-    """Measure how far recordings of one motor reach."""
-    speed = max(map(_reach_of, recordings))
-    return Extent(
-        max(float(np.abs(recording.voltage).max()) for recording in recordings),
-        speed,
-        max(recording.duration for recording in recordings),
-        min(recording.sample_period for recording in recordings),
-        max(_finest_cycles(recording, speed) for recording in recordings),
-    )
-
-
-def _finest_cycles(recording: Recording, speed: float) -> float:
-    """[1/rev of the encoder's shaft] of the finest ripple: two slots a cycle, two stamps at a slow but sure speed."""
-    edges = recording.info.edges_per_revolution
-    stamps = 2.0 if recording.info.measurement is Measurement.EDGES else 1.0  # a sample has at most
-    turning = TURNING_SPEED * speed * float(recording.info.gear)
-    seen = stamps * pi / (turning * recording.sample_period) if speed > 0.0 else inf
-    return min(0.5 * edges, seen) if edges else seen
 
 
 def make_unknowns(recordings: Sequence[Recording], effects: tuple[str, ...], split: bool = False) -> Unknowns:
