@@ -9,7 +9,6 @@ import numpy as np
 
 from motor_identification.estimation.parameter_space import Unknowns, make_unknowns
 from motor_identification.estimation.residual import Latest, simulate_residuals
-from motor_identification.estimation.thinning import thin_out
 from motor_identification.measurement.build_intervals import make_intervals
 from motor_identification.measurement.edit_intervals import exclude_intervals, join_intervals, share_noise
 from motor_identification.measurement.intervals import Intervals
@@ -225,11 +224,8 @@ def make_problem(
     effects: tuple[str, ...],
     workers: int = 1,
     stopped: Callable[[], bool] | None = None,
-    thin: bool = False,
 ) -> Problem:
     """Make the problem of fitting kv, ka and these effects to recordings of one motor.
-
-    thin: whether rows may be joined where there are more than enough of them (`thinning.py`).
 
     Raises:
         ModelError: an effect is not in the table, or is none that can be fitted.
@@ -240,7 +236,6 @@ def make_problem(
     if not driven:  # one that coasts tells of friction beside others
         raise RecordingError(f"{recordings[0].uri}: the voltage is always 0; record with the motor driven.")
     intervals = share_noise([make_intervals(recording) for recording in recordings])
-    intervals = thin_out(recordings, intervals) if thin else intervals
     unknowns = make_unknowns(recordings, effects)
     count = sum(len(data.first) for data in intervals)
     if count <= len(unknowns.low):

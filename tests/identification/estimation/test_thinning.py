@@ -9,7 +9,7 @@ from recorded import as_counts, as_speed
 
 from motor_identification.estimation import thinning
 from motor_identification.estimation.problem import make_problem
-from motor_identification.estimation.thinning import count_joined, thin_out
+from motor_identification.estimation.thinning import count_joined, make_thinned_problem, thin_out
 from motor_identification.measurement.build_intervals import make_intervals
 from motor_identification.recording import Recording, check
 from motor_model.parameters import PAPER_KA, PAPER_KV
@@ -60,7 +60,10 @@ def test_edges_with_stamps_stay_as_they_are(monkeypatch: pytest.MonkeyPatch) -> 
     assert rows_joined(stamped, 100, monkeypatch) == 1 < rows_joined(check(as_counts(stamped)), 100, monkeypatch)
 
 
-def test_only_who_asks_for_it_gets_a_thin_problem(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("effects", [(), ("coulomb_friction",)])
+def test_only_who_asks_for_it_gets_a_thin_problem(monkeypatch: pytest.MonkeyPatch, effects: tuple[str, ...]) -> None:
     monkeypatch.setattr(thinning, "ENOUGH", 1500)
-    count, thin = (len(make_problem([logged()], (), thin=thin).intervals[0].first) for thin in (False, True))
-    assert thin < 0.6 * count
+    whole, thinned = make_problem([logged()], effects), make_thinned_problem([logged()], effects, workers=2)
+    assert len(thinned.intervals[0].first) < 0.6 * len(whole.intervals[0].first)
+    assert thinned.unknowns.effects == whole.unknowns.effects == effects
+    assert (thinned.workers, whole.workers) == (2, 1)
