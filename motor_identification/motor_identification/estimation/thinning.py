@@ -49,7 +49,7 @@ def count_joined(recordings: Sequence[Recording], intervals: Sequence[Intervals]
     if any(recording.info.measurement is Measurement.EDGES for recording in recordings):
         return 1
     total, rows = sum(len(data.first) for data in intervals), 1
-    speeds = [data.speed[np.argsort(data.time[data.first], kind="stable")] for data in intervals]
+    speeds = [data.speed[data.order] for data in intervals]
     while rows * ENOUGH < total and rows < MOST_JOINED and all(_differ_little(speed, 2 * rows) for speed in speeds):
         rows *= 2
     return rows

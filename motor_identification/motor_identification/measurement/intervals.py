@@ -53,6 +53,11 @@ class Intervals:
         """[s] length of every interval, shape (I,)."""
         return np.asarray(self.time[self.last] - self.time[self.first])
 
+    @cached_property
+    def order(self) -> Integers:
+        """Which interval begins first, which next, and so on, shape (I,)."""
+        return np.argsort(self.time[self.first], kind="stable")
+
     @property
     def travel(self) -> Floats:
         """[rad] the motor went in every interval, whichever way, shape (I,)."""

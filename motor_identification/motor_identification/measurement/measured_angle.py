@@ -57,7 +57,7 @@ class Track:
 
 def make_track(intervals: Intervals, angle: Floats) -> Track:
     """Make the track of one recording; `angle` [rad] is a fitted motor's at `intervals.time`, shape (K,)."""
-    order = np.argsort(intervals.time[intervals.first], kind="stable")
+    order = intervals.order
     measured = np.full(len(angle), np.nan)
     run = np.zeros(len(angle), dtype=np.int64)
     _follow(

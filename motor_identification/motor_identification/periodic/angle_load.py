@@ -75,7 +75,7 @@ def _list_accelerations(
     data: Intervals, track: Track, changed: Floats, voltage: Floats
 ) -> tuple[Floats, Floats, Floats]:
     """List, between the middles of intervals that follow each other, (u, ω) and (sin θ, cos θ) (N, 2), and α (N,)."""
-    order = np.argsort(data.time[data.first], kind="stable")
+    order = data.order
     begin, end, speed = data.time[data.first][order], data.time[data.last][order], data.speed[order]
     follow = (begin[1:] - end[:-1] <= SAME_INSTANT) & (data.slack[order][1:] == 0.0) & (data.slack[order][:-1] == 0.0)
     middle, angle = 0.5 * (begin + end), data.gear * track.at(end[:-1])[follow]

@@ -79,10 +79,10 @@ def whiten_runs(estimate: Estimate, tracks: Sequence[Track]) -> list[WhitenedRun
     rows = zip(estimate.problem.intervals, tracks, estimate.increments, learn_encoders(estimate), strict=True)
     for data, track, increments, encoder in rows:
         angle, begun = data.gear * track.at(data.time), data.time[data.first]  # of the encoder's (the motor's) shaft
-        order, number = np.argsort(begun, kind="stable"), track.run_at(begun)
-        gap = _find_gaps(begun, begun + data.duration, number, order, find_row_step(data))
+        number = track.run_at(begun)
+        gap = _find_gaps(begun, begun + data.duration, number, data.order, find_row_step(data))
         course = Course(
-            order, number, angle[data.first], angle[data.last], data.duration, gap, data.slack == 0.0, estimate.lag
+            data.order, number, angle[data.first], angle[data.last], data.duration, gap, data.slack == 0.0, estimate.lag
         )
         moved = np.where(course.moving, -increments, 0.0)
         colour = fit_autoregression(encoder.white(moved)[: len(moved)], course.order)

@@ -10,6 +10,7 @@ from recorded import as_counts
 
 from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.measurement.build_intervals import make_intervals
+from motor_identification.measurement.intervals import index_intervals
 from motor_identification.measurement.sampled_counts import (
     UNIFORM_SIGMA,
     Fixes,
@@ -41,6 +42,13 @@ def errors(fixes: Fixes, truth: Truth) -> Floats:
     for run in np.unique(fixes.run):
         error[fixes.run == run] -= np.mean(error[fixes.run == run])
     return np.asarray(error)
+
+
+def test_intervals_are_told_in_the_order_in_which_they_begin() -> None:
+    """However they are listed; of those that begin at once the first of the list is first."""
+    start = np.array([0.4, 0.0, 0.2, 0.0])
+    data = index_intervals(start, start + 0.2, np.arange(4.0), np.full(4, 0.01))
+    assert data.order.tolist() == [1, 3, 2, 0] and data.speed[data.order].tolist() == [1.0, 3.0, 2.0, 0.0]
 
 
 def test_at_constant_speed_a_slow_disc_is_known_better_than_a_slot() -> None:
