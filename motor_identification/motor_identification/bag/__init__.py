@@ -1,7 +1,7 @@
 """The only place that knows bags: reads any, cut off or not, and writes rosbag2 directories with MCAP storage."""
 
 from motor_identification.bag.contents import Contents
-from motor_identification.bag.motor import read_recording
+from motor_identification.bag.motor.recording import read_recording
 from motor_identification.bag.reader import contents, in_time_order, messages, topics
 from motor_identification.bag.repair import repair
 from motor_identification.bag.source import Source, Window

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from motor_identification.bag.motor import read_recording
+from motor_identification.bag.motor.recording import read_recording
 from motor_identification.recording import Recording, check
 
 

@@ -44,7 +44,7 @@ def parser() -> argparse.ArgumentParser:
 
 
 def _inspect(options: argparse.Namespace) -> int:
-    from motor_identification.bag.cdr import SPEED_TYPE
+    from motor_identification.bag.motor.cdr import SPEED_TYPE
     from motor_identification.mapping import mapping_text
     from motor_identification.mapping.candidates import find_candidates
     from motor_identification.mapping.inventory import take_inventory

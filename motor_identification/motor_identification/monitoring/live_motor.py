@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from motor_identification.bag.fields import collect_fields
-from motor_identification.bag.motor import read_motor
+from motor_identification.bag.motor.recording import read_motor
 from motor_identification.bag.topic import absolute_name
 from motor_identification.mapping.alignment import align
 from motor_identification.mapping.mapped_recording import make_mapped_log, take_longest

@@ -6,14 +6,12 @@ from pathlib import Path
 
 import pytest
 from motor_bags import INFO, SAMPLES, assert_is, refusal, rewritten, write_bag
-from rclpy.serialization import serialize_message
-from rosbags.rosbag2 import CompressionMode, StoragePlugin, Writer
+from rosbags.rosbag2 import CompressionMode, StoragePlugin
 
 from motor_identification.bag import BagWriter, contents, messages, read_recording, topics
 from motor_identification.bag.metadata import read_metadata, write_metadata
 from motor_model.errors import RecordingError
 from motor_model.sample import Info, Measurement
-from motor_msgs.msg import MotorSpeed, MotorVoltage
 
 
 def test_what_was_written_is_read_bit_for_bit(tmp_path: Path) -> None:
@@ -54,16 +52,6 @@ def test_of_many_missing_files_a_few_are_named(tmp_path: Path) -> None:
     (note,) = read_recording(bag).notes
     few = ", ".join(f"x{k}.mcap" for k in range(10))
     assert note == f"{bag} lacks {few} and 2 more, which its metadata.yaml lists: those samples are missing."
-
-
-def test_frame_ids_of_any_length_are_read_whatever_padding_they_cause(tmp_path: Path) -> None:
-    bag = write_bag(tmp_path / "bag", SAMPLES[:200], frame=lambda k: "wheel number seventeen"[: k % 20])
-    assert_is(read_recording(bag), SAMPLES[:200])
-
-
-def test_no_current_sensor_is_nan(tmp_path: Path) -> None:
-    bare = [replace(sample, current=float("nan"), supply_voltage=float("nan")) for sample in SAMPLES[:10]]
-    assert_is(read_recording(write_bag(tmp_path / "bag", bare)), bare)
 
 
 @pytest.mark.parametrize("namespace", ["left", "/left", "/left/"])
@@ -169,58 +157,6 @@ def test_not_a_bag(tmp_path: Path) -> None:
     assert "not an MCAP file" in refusal(tmp_path / "text.mcap")
     (tmp_path / "text.db3").write_text("this is not sqlite3, although it is quite long for that")
     assert "cannot be read" in refusal(tmp_path / "text.db3")
-
-
-def test_an_empty_bag(tmp_path: Path) -> None:
-    BagWriter(tmp_path / "empty").close()
-    assert "empty bag" in refusal(tmp_path / "empty")
-    with Writer(tmp_path / "empty3", version=9, storage_plugin=StoragePlugin.SQLITE3):
-        pass
-    assert "empty bag" in refusal(tmp_path / "empty3")
-
-
-def test_no_motor_in_the_bag(tmp_path: Path) -> None:
-    with BagWriter(tmp_path / "other") as writer:
-        for k in range(12):
-            channel = writer.topic(f"/topic{k:02}", "motor_msgs/msg/MotorVoltage")
-            writer.write(channel, 1, serialize_message(MotorVoltage()))
-    sentence = refusal(tmp_path / "other")
-    assert "has no /motor/speed" in sentence and "/topic00, " in sentence and "and 2 more" in sentence
-    assert "--topic-namespace" not in sentence
-
-
-def test_the_motor_is_in_another_namespace(tmp_path: Path) -> None:
-    far = write_bag(tmp_path / "far", SAMPLES[:200], "/left/wheel")
-    recording = read_recording(far)  # nobody has said which: there is only one
-    assert len(recording) == 200
-    assert recording.notes == (f"{far} has one motor, in the namespace /left/wheel: that one is used.",)
-    assert read_recording(far, "left/wheel").notes == ()
-    for asked in ("right", "/"):
-        assert "say --topic-namespace /left/wheel." in refusal(far, asked)
-    assert "say --topic-namespace /." in refusal(write_bag(tmp_path / "here", SAMPLES[:20]), "right")
-
-
-def test_one_of_two_motors_has_to_be_named(tmp_path: Path) -> None:
-    with BagWriter(tmp_path / "two") as writer:
-        for namespace in ("left", "right"):
-            channel = writer.topic(f"/{namespace}/motor/speed", "motor_msgs/msg/MotorSpeed")
-            writer.write(channel, 1, serialize_message(MotorSpeed()))
-    assert "say --topic-namespace /left or --topic-namespace /right." in refusal(tmp_path / "two")
-
-
-def test_the_topic_of_another_type(tmp_path: Path) -> None:
-    with BagWriter(tmp_path / "other") as writer:
-        channel = writer.topic("/motor/speed", "motor_msgs/msg/MotorVoltage")
-        writer.write(channel, 1, serialize_message(MotorVoltage()))
-    assert "motor_msgs/msg/MotorVoltage, not motor_msgs/msg/MotorSpeed" in refusal(tmp_path / "other")
-
-
-def test_messages_that_are_not_what_they_say(tmp_path: Path) -> None:
-    bad = [b"", b"\x00\x01\x00\x00" + bytes(30), b"\x07\x07" + bytes(90), b"\x00\x01" + b"\xff" * 90]
-    for number, data in enumerate(bad):
-        with BagWriter(tmp_path / f"bad{number}") as writer:
-            writer.write(writer.topic("/motor/speed", "motor_msgs/msg/MotorSpeed"), 1, data)
-        assert "cannot be read: a message" in refusal(tmp_path / f"bad{number}")
 
 
 def test_a_motor_that_never_moves(tmp_path: Path) -> None:

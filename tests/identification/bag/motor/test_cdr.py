@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from motor_bags import SAMPLES
 from rclpy.serialization import deserialize_message, serialize_message
 
-from motor_identification.bag.cdr import ROW, SPEED_TYPE, SpeedDecoder, Undecodable, decode_info
 from motor_identification.bag.definition import installed
+from motor_identification.bag.motor.cdr import ROW, SPEED_TYPE, SpeedDecoder, Undecodable, decode_info
 from motor_model.sample import Info, Measurement, Sample
 from motor_msgs.msg import MotorSpeed
 from motor_ros.messages import info_message, speed_message, time_message
