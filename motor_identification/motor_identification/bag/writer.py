@@ -5,7 +5,6 @@ recording (`rosbags` keeps up to 1 MiB, half a minute of a motor, in memory and 
 compresses its chunks. What it lacks, `metadata.yaml` and the QoS, is added here.
 """
 
-import fcntl
 import os
 import shutil
 import time
@@ -14,7 +13,6 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import replace as changed
 from importlib.metadata import version
-from io import BufferedWriter
 from itertools import count
 from pathlib import Path
 from types import TracebackType
@@ -25,12 +23,11 @@ from motor_identification.bag.contents import Contents, Span
 from motor_identification.bag.definition import installed
 from motor_identification.bag.disk import refused, told
 from motor_identification.bag.metadata import bag_metadata, profiles_text, write_metadata, yaml_text
+from motor_identification.bag.new_bag import create_bag
 from motor_identification.bag.topic import Qos, Topic
 from motor_model.errors import RecordingError
 
 FLUSH_EVERY = 0.5  # [s] what a kill -9 loses at most, if `flush` is called as often when no messages come
-EXISTS = "{} exists already and is left as it is: choose another name, or replace it with --force."
-STORAGE = (".mcap", ".db3")
 _CHUNK_SIZE = 256 * 1024  # [bytes] about 10 s of a motor's topics
 
 
@@ -48,7 +45,7 @@ class BagWriter:
     def __init__(self, path: str | Path, replace: bool = False, part: bool = True) -> None:
         self.path = Path(path)
         self.counts: Counter[str] = Counter()  # messages by topic
-        self._stream = _create(self.path, replace)
+        self._stream = create_bag(self.path, replace)
         self._schemas: dict[str, int] = {}
         self._channels: dict[str, int] = {}  # by topic name
         self._topics: dict[int, Topic] = {}  # by channel
@@ -171,33 +168,3 @@ class BagWriter:
         with suppress(OSError):  # a disk that refuses this too leaves a file that is cut off, which can be read
             os.ftruncate(self._stream.fileno(), self._whole)
         self._stream.raw.close()  # and not the stream, which would write what it still has in memory behind the end
-
-
-def check_new_bag(path: Path, replace: bool = False) -> None:
-    """Refuse a path at which something exists, unless it is a bag that may be replaced.
-
-    Raises:
-        RecordingError: something is there.
-    """
-    if not (path.exists() or path.is_symlink()):
-        return
-    if not replace:
-        raise RecordingError(EXISTS.format(path))
-    if not path.is_dir() or path.is_symlink() or not all(map(_belongs_to_a_bag, path.iterdir())):
-        raise RecordingError(f"{path} is not a bag and is left as it is: choose another name.")
-
-
-def _belongs_to_a_bag(path: Path) -> bool:
-    return path.is_file() and (path.name == "metadata.yaml" or any(suffix in STORAGE for suffix in path.suffixes))
-
-
-def _create(path: Path, replace: bool) -> BufferedWriter:
-    with told(path):
-        check_new_bag(path, replace)
-        if path.exists():
-            shutil.rmtree(path)
-        path.mkdir(parents=True)
-        stream = (path / f"{path.resolve().name}_0.mcap").open("xb")
-    with suppress(OSError):  # some file systems have no locks; `repair` must not take it for one that a crash left
-        fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    return stream
