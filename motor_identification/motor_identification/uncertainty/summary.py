@@ -1,7 +1,7 @@
 """Summarise an identification: a motor, how sure each of its numbers is, and all that limits them."""
 
 from collections.abc import Callable
-from math import nan
+from math import ceil, isnan, nan
 
 import numpy as np
 
@@ -20,7 +20,7 @@ from motor_model.effect import ParameterSpec
 from motor_model.effects import EFFECT_BY_NAME, SPEC_BY_NAME, VISCOUS_SHARE
 
 ON_BOUND = 1e-4  # of the box: how near its edge a parameter counts as on it
-SPLIT = "Of kv, {:.0f} ± {:.1g} % is viscous friction and the rest back-EMF, which a motor with {} tells apart."
+SPLIT = "Of kv, {:.1f} ± {:.1f} % is viscous friction and the rest back-EMF, which a motor with {} tells apart."
 NO_VARIANCE = 1e-18  # of the largest speed squared: a measured speed that does not vary, but for rounding
 
 
@@ -86,11 +86,12 @@ def _list_own_notes(fit: WhitenedFit) -> list[str]:
 
 def _describe_split(unknowns: Unknowns, theta: Floats, errors: dict[str, float]) -> list[str]:
     """One sentence where kv was split into viscous friction and back-EMF."""
-    if not unknowns.splits_kv:
+    if not unknowns.splits_kv or isnan(errors[VISCOUS_SHARE.name]):
         return []
     share = float(theta[unknowns.names.index(VISCOUS_SHARE.name)])
     by = " and ".join(name for name in unknowns.effects if EFFECT_BY_NAME[name].splits_kv)
-    return [SPLIT.format(100.0 * share, 100.0 * errors[VISCOUS_SHARE.name], by)]
+    error = ceil(1000.0 * errors[VISCOUS_SHARE.name]) / 10.0  # nobody needs it to more than a tenth of a percent
+    return [SPLIT.format(100.0 * share, error, by)]
 
 
 def _own(effect: str) -> tuple[ParameterSpec, ...]:

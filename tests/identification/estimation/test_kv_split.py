@@ -48,7 +48,10 @@ def test_an_identified_motor_tells_how_much_of_kv_is_viscous_friction_and_its_fi
     assert fit.parameters.values["sag"] == pytest.approx(0.15, abs=0.005)
     assert fit.residual_rms < 1.1 * fit.noise_floor
     (said,) = (note for note in fit.notes if "viscous" in note)
-    assert said.startswith("Of kv, 30 ± 0.") and said.endswith("which a motor with supply_sag tells apart.")
+    share, error = (float(number) for number in said.removeprefix("Of kv, ").split(" % ")[0].split(" ± "))
+    assert share == pytest.approx(100.0 * fit.parameters.viscous_share, abs=0.05)
+    assert 0.0 <= error - 100.0 * fit.standard_errors["viscous_share"] < 0.1 + 1e-9
+    assert said.endswith(" % is viscous friction and the rest back-EMF, which a motor with supply_sag tells apart.")
     assert "viscous_share" not in fit.on_bound
     model = Model(Identified("motor", fit.parameters, fit.standard_errors), fit.residual_rms)
     gap = measure_gap(viscous(SAG, 0.3, seed=1), model)
