@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from motor_identification.bag import BagWriter
+from motor_identification.bag import BagWriter, contents
 from motor_model.errors import RecordingError
 
 
