@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from motor_identification.logs.columns.heading import split_words
+from motor_identification.logs.columns.names.words import split_words
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.columns.vocabulary import SIDES
 from motor_identification.logs.csv.table import Table

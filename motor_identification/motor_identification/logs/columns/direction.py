@@ -7,7 +7,8 @@ from itertools import permutations
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_identification.logs.columns.heading import read_heading, split_words
+from motor_identification.logs.columns.heading import read_heading
+from motor_identification.logs.columns.names.words import split_words
 from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.columns.vocabulary import words_of

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_identification.logs.columns.heading import Heading, is_pulse_of_esc
+from motor_identification.logs.columns.heading import Heading
+from motor_identification.logs.columns.names.quantity import is_pulse_of_esc
 from motor_identification.logs.columns.vocabulary import SHARES, UNITS, VOLTAGE_WORDS, Quantity, words_of
 from motor_identification.logs.csv.table import Table
 

@@ -1,0 +1,96 @@
+"""Tell the quantity of a column by the words of its name and by its unit."""
+
+from motor_identification.logs.columns.vocabulary import (
+    MOVES,
+    OUTPUTS,
+    SHARES,
+    UNITS,
+    VOLTAGE_WORDS,
+    WORDS,
+    Quantity,
+)
+
+_ORDERS = frozenset(["command", "cmd", "commanded"])  # of a speed or a position: what it should be
+_PULSES = frozenset(["esc", "signal", "pwm", "throttle", "pulse", "width", "command", "cmd", "output"])
+_SENSORS = frozenset(["encoder", "enc", "qei"])
+AXES = frozenset(["yaw", "pitch", "roll"])
+_JOINT_FIELDS = frozenset(["position", "velocity", "effort"])
+_OF_AXES = _JOINT_FIELDS | SHARES | VOLTAGE_WORDS  # what a machine's axis has, and no angle of a body in the air
+
+
+def tell_quantity(words: tuple[str, ...], unit: str) -> Quantity | None:
+    """The quantity that a name's words and its unit tell, a key of UNITS or empty; None where they tell none."""
+    told = [
+        kind
+        for kind, known in WORDS.items()
+        if known & set(words) and not (kind is Quantity.REFERENCE and _is_side(words))
+    ]
+    if _is_joint(words):
+        told.remove(Quantity.OTHER)
+    if _is_duty_whatever_its_unit(words, unit, told):
+        return Quantity.DUTY
+    by_unit = UNITS[unit][0] if unit else None
+    if Quantity.OTHER in told and "rate" not in words:
+        return Quantity.OTHER
+    if Quantity.REFERENCE in told:
+        return Quantity.REFERENCE
+    if Quantity.SUPPLY in told and by_unit in (None, Quantity.VOLTAGE):
+        return Quantity.SUPPLY
+    if by_unit is not None:
+        return _moves_by_unit(by_unit, told, words)
+    if MOVES & set(told) and (_ORDERS | {"commande"}) & set(words):
+        return Quantity.REFERENCE
+    if _is_speed_after_all(words, told):
+        return Quantity.SPEED
+    if Quantity.VOLTAGE in told and Quantity.DUTY in told:
+        return Quantity.VOLTAGE
+    return _quantity_of_an_output(words, told) or (told[0] if told else None)
+
+
+def _is_speed_after_all(words: tuple[str, ...], told: list[Quantity]) -> bool:
+    """Whether another word than the first tells a speed: `theta_dot`, and `velocity_encoder`, which measures it."""
+    if told[:2] == [Quantity.COUNT, Quantity.SPEED]:
+        return not WORDS[Quantity.COUNT] & set(words) - _SENSORS
+    return told[:1] == [Quantity.POSITION] and words[-1] == "dot"
+
+
+def _quantity_of_an_output(words: tuple[str, ...], told: list[Quantity]) -> Quantity | None:
+    """`output speed` is the speed that comes out, `speed output` what a controller of speeds puts out; else None."""
+    if told[:1] != [Quantity.DUTY] or WORDS[Quantity.DUTY] & set(words) - OUTPUTS:
+        return None
+    return next((kind for kind in told if kind in MOVES and words[-1] in WORDS[kind]), None)
+
+
+def _is_duty_whatever_its_unit(words: tuple[str, ...], unit: str, told: list[Quantity]) -> bool:
+    """Whether a name is one of a duty: `pwm_rev`, that of the other way; `PWM [ticks]`, `Commande [pt]`, of a timer.
+
+    So is `ESC signal (µs)`, of a test stand.
+    """
+    if is_pulse_of_esc(words):
+        return True
+    if unit == "rev":
+        return Quantity.DUTY in told
+    return unit == "count" and told == [Quantity.DUTY] and not (_ORDERS | OUTPUTS) & set(words)
+
+
+def is_pulse_of_esc(words: tuple[str, ...]) -> bool:
+    """Whether a name is that of the pulses which a brushless motor's controller gets, not of what that measures."""
+    return "esc" in words and all(word in _PULSES or word.isdigit() for word in words)
+
+
+def _is_joint(words: tuple[str, ...]) -> bool:
+    """Whether a name is one of a joint's fields, as ROS has them, or its drive: yaw, pitch and roll are joints then."""
+    others = WORDS[Quantity.OTHER] & set(words)
+    return bool(others) and others <= AXES and bool(_OF_AXES & set(words))
+
+
+def _is_side(words: tuple[str, ...]) -> bool:
+    """Whether the r in a name means the right one: `r speed`, not `r` alone."""
+    return "r" in words and len(words) > 1 and not WORDS[Quantity.REFERENCE] & (set(words) - {"r"})
+
+
+def _moves_by_unit(by_unit: Quantity, told: list[Quantity], words: tuple[str, ...]) -> Quantity:
+    """The unit says what it is; of a speed or an angle, the words whether it is measured."""
+    if by_unit in MOVES and _ORDERS & set(words):
+        return Quantity.REFERENCE
+    return by_unit

@@ -1,0 +1,38 @@
+"""Which quantity a name's words tell, and where its unit knows better."""
+
+import pytest
+
+from motor_identification.logs.columns.names.quantity import is_pulse_of_esc, tell_quantity
+from motor_identification.logs.columns.vocabulary import Quantity
+
+
+@pytest.mark.parametrize(
+    ("words", "unit", "quantity"),
+    [
+        ("speed", "", Quantity.SPEED),
+        ("speed", "rev/s", Quantity.SPEED),
+        ("target speed", "", Quantity.REFERENCE),
+        ("speed command", "rad/s", Quantity.REFERENCE),  # what it should be
+        ("battery voltage", "V", Quantity.SUPPLY),
+        ("theta dot", "", Quantity.SPEED),
+        ("velocity encoder", "", Quantity.SPEED),
+        ("output speed", "", Quantity.SPEED),
+        ("output", "", Quantity.DUTY),
+        ("pwm", "count", Quantity.DUTY),
+        ("pwm", "rev", Quantity.DUTY),  # of the other way
+        ("r speed", "", Quantity.SPEED),  # the right one
+        ("yaw", "", Quantity.OTHER),
+        ("yaw velocity", "", Quantity.SPEED),  # a joint
+        ("foo", "", None),
+    ],
+)
+def test_words_and_unit_tell_a_quantity(words: str, unit: str, quantity: Quantity | None) -> None:
+    assert tell_quantity(tuple(words.split()), unit) is quantity
+
+
+@pytest.mark.parametrize(
+    ("words", "pulse"),
+    [("esc signal", True), ("esc 1 pwm", True), ("esc current", False), ("pwm", False)],
+)
+def test_pulses_to_a_controller_of_brushless_motors_are_told_from_what_it_measures(words: str, pulse: bool) -> None:
+    assert is_pulse_of_esc(tuple(words.split())) is pulse
