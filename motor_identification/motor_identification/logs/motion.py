@@ -18,6 +18,7 @@ from motor_identification.logs.rows.speed_sign import give_signs
 from motor_identification.logs.rows.swapped_sign import turn_round
 from motor_identification.logs.rows.wraps import unwrap
 from motor_identification.logs.signals import Floats, Integers, Signals
+from motor_identification.sensor.pulses.timer_ticks import find_speed_of_a_tick
 from motor_identification.sensor.running_mean import find_running_mean, size_of_count, take_single_rows
 from motor_identification.sensor.speed_sensor import are_smoothed, find_noise
 from motor_identification.sensor.value_lattice import find_lattice
@@ -29,6 +30,7 @@ _FAR = 5.5  # times between the steps of speeds and one count, below the 2π, 9.
 # Counts of a row in motion, by median, from which on its speed says as much as the angle: one is then a quarter of it.
 # Of fewer, speeds of single rows are little but their rounding, which the angle does not sum up.
 MANY_A_ROW = 4.0
+TIMED = "Speeds in {} are one angle over whole ticks of a timer each: they were timed between edges, not counted."
 LARGEST_COUNT = 2**53  # counts and positions beyond are no whole numbers any more
 
 
@@ -151,6 +153,8 @@ def _confirm_edges(form: CsvForm, signals: Signals, edges: int, count: float) ->
     Raises:
         RecordingError: a unit or the window is wrong; what is given in counts has no unit that could be.
     """
+    if find_speed_of_a_tick(signals.motion) > 0.0:
+        return 0, [TIMED.format(form.motion)]
     smoothed = are_smoothed(signals.motion, signals.voltage, count)
     if not smoothed or form.unit != "count/s":
         _check_steps(form, signals.motion, edges, count)

@@ -14,7 +14,7 @@ from motor_identification.measurement.edit_intervals import append_standstills
 from motor_identification.measurement.intervals import Intervals, index_intervals
 from motor_identification.measurement.standstill import LEAST_STANDSTILL
 from motor_identification.recording import Bools, Floats, Integers, Recording
-from motor_identification.sensor.pulse_periods import mark_decays
+from motor_identification.sensor.pulses.pulse_periods import mark_decays
 from motor_identification.sensor.value_lattice import find_lattice
 from motor_identification.sensor.white_noise import estimate_white_noise
 

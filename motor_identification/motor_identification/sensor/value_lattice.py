@@ -28,15 +28,18 @@ CHANCE = 1e-4  # that values without a lattice are given one
 PARTS = (1.0, 0.5, 0.25)  # of the largest value: a window that jitters blurs large values, not small ones
 
 
-def find_lattice(values: Floats) -> float:
-    """Find the largest step whose multiples all values (K,) are, within their rounding; 0 where there is none."""
+def find_lattice(values: Floats, finest: float = FINEST) -> float:
+    """Find the largest step whose multiples all values (K,) are, within their rounding; 0 where there is none.
+
+    finest: how many steps there are up to the largest value, at most.
+    """
     levels = np.unique(np.abs(values))
     levels = levels[levels > 1e-12 * levels[-1]] if len(levels) else levels
     if len(levels) > MOST_LEVELS:  # at random: every so many of many levels lie on a lattice of their own
         levels = np.sort(np.random.default_rng(0).choice(levels, MOST_LEVELS, replace=False))
     for part in PARTS:
         some = levels[levels <= part * levels[-1]] if len(levels) else levels
-        step = _find_step(some.tobytes()) if len(some) >= LEAST_PLACES else 0.0
+        step = _find_step(some.tobytes(), finest) if len(some) >= LEAST_PLACES else 0.0
         if step > 0.0:
             return step
     return _find_small_counts(values, levels)
@@ -60,11 +63,11 @@ def _find_small_counts(values: Floats, levels: Floats) -> float:
 
 
 @lru_cache(maxsize=64)  # a recording's intervals are made, and its sensor is looked at, again and again
-def _find_step(values: bytes) -> float:
+def _find_step(values: bytes, finest: float) -> float:
     """Find the largest step whose lattice is no chance, for ascending levels above 0 (float64)."""
     levels = np.frombuffer(values)
     top = float(levels[-1])
-    tried = np.asarray(np.arange(LEAST_PLACES - 1.0, FINEST, SCAN) / top, dtype=np.float64)  # 1/step
+    tried = np.asarray(np.arange(LEAST_PLACES - 1.0, finest, SCAN) / top, dtype=np.float64)  # 1/step
     score = _mean_cosine(levels, tried[:AT_ONCE])
     for begin in range(0, len(tried), AT_ONCE):
         if begin == AT_ONCE:  # all others together, which takes a third of the cosines

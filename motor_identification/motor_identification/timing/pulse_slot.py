@@ -3,7 +3,8 @@
 Where a motor is slow enough, how long values stay tells the slot. Else its motion does: such a value is the mean from
 one edge to the next, on average a whole period slot/|v| old, so that of all slots the motor is fitted to the speeds as
 each would have them, and the likeliest is compared with the same rows' values by the likeliest other timing. Not where
-speeds show a filter: both come late, and what was smoothed has a noise of its own.
+speeds show a filter: both come late, and what was smoothed has a noise of its own. Where all speeds are over whole
+ticks of a timer, times between edges is what they are, and slots are those of ticks as there are.
 """
 
 from collections.abc import Callable, Sequence
@@ -13,13 +14,14 @@ import numpy as np
 
 from motor_identification.estimation.problem import Problem
 from motor_identification.recording import Bools, Floats, Integers, Recording
-from motor_identification.sensor.pulse_periods import (
+from motor_identification.sensor.pulses.pulse_periods import (
     LONGEST_SLOT,
     contradicts,
     find_slot_by_decays,
     find_slot_by_stays,
     score_stays,
 )
+from motor_identification.sensor.pulses.timer_ticks import list_slots
 from motor_identification.timing.shaped_fit import ShapedFit, Shaper, measure_gain
 from motor_identification.timing.timing import LEAST_DELAY, Timing
 from motor_model.effects import LAGGING
@@ -29,6 +31,7 @@ from motor_model.errors import RecordingError
 GRID = tuple(0.003 * 3.0**k for k in range(7))
 STEPS = (1.7, 1.3, 1.12, 1.06)
 LEAST_ROWS = 30  # that tell
+SAME_SLOT = 0.15  # of a slot that stays tell, mostly to some per cent
 UNDONE = 0.2  # of the dead time by another timing, at most, that is left by a slot which undoes it
 
 
@@ -44,13 +47,21 @@ class SlotGain:
 
 
 def find_stays_slot(recordings: Sequence[Recording]) -> float:
-    """Find the slot [rad] by how long values stay; 0 where that tells none."""
-    return _find_slot(find_slot_by_stays, recordings)
+    """Find the slot [rad] by how long values stay, that of whole ticks where these are near; 0 where none shows."""
+    slot = _find_slot(find_slot_by_stays, recordings)
+    near = [one for one in list_tick_slots(recordings) if abs(one - slot) < SAME_SLOT * slot]
+    return min(near, key=lambda one: abs(one - slot), default=slot)
 
 
 def find_decay_slot(recordings: Sequence[Recording]) -> float:
     """Find the slot [rad] by how values fall between edges; 0 where that tells none."""
     return _find_slot(find_slot_by_decays, recordings)
+
+
+def list_tick_slots(recordings: Sequence[Recording]) -> tuple[float, ...]:
+    """List the slots [rad] that speeds may be over which are whole ticks of a timer; empty where they are none."""
+    found = (list_slots(one.speed, LONGEST_SLOT) for one in recordings)
+    return next((slots for slots in found if slots), ())
 
 
 def _find_slot(find: Callable[[Floats, Floats], float], recordings: Sequence[Recording]) -> float:
@@ -72,6 +83,8 @@ def find_likeliest_slot(shaper: Shaper, instants: Timing, other: Timing) -> Slot
     known = find_decay_slot(shaper.recordings)
     if known > 0.0:
         return judge(known)
+    if ticks := list_tick_slots(shaper.recordings):
+        return max(map(judge, ticks), key=_rate)
     best = max(map(judge, (usual * share for share in GRID)), key=_rate)
     if best.gain > 0.0:
         for step in STEPS:
@@ -101,7 +114,7 @@ def judge_slot(shaper: Shaper, timing: Timing, other: Timing, plain: ShapedFit, 
     if slot > LONGEST_SLOT:
         return SlotGain(slot, -np.inf, 0)
     stays = [score_stays(one.time, one.speed, slot) for one in shaper.recordings]
-    if any(map(contradicts, stays)):
+    if any(map(contradicts, stays)) and not list_tick_slots(shaper.recordings):  # of ticks, many values are alike
         return SlotGain(slot, -np.inf, 0)
     try:
         periods = shaper.fit(timing)

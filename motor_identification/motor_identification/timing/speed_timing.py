@@ -24,6 +24,7 @@ from motor_identification.timing.pulse_slot import (
     find_decay_slot,
     find_likeliest_slot,
     find_stays_slot,
+    list_tick_slots,
     measure_gain_over_lag,
     measure_usual_travel,
 )
@@ -151,12 +152,13 @@ def _find_periods(shaper: Shaper, other: Timing, least: float = -inf) -> Timing 
     found, timing = max(
         ((find_likeliest_slot(shaper, one, other), one) for one in instants), key=lambda one: one[0].gain
     )
-    enough = LEAST_UNDOING_GAIN if found.undoes else LEAST_GAIN
-    if found.gain <= max(least, enough, LEAST_PULSE_GAIN_OF_ROW * found.rows):
+    proved = bool(list_tick_slots(shaper.recordings))
+    enough = LEAST_UNDOING_GAIN if found.undoes or proved else LEAST_GAIN
+    if found.gain <= max(least, enough, 0.0 if proved else LEAST_PULSE_GAIN_OF_ROW * found.rows):
         return None
     if found.slot < LEAST_SLOT * measure_usual_travel(shaper.recordings):  # it ends at the row's own instant
         return timing
-    if measure_gain_over_lag(shaper, replace(timing, slot=found.slot), other) <= 0.0:
+    if not proved and measure_gain_over_lag(shaper, replace(timing, slot=found.slot), other) <= 0.0:
         return None
     return replace(_choose_instants(shaper, found.slot), slot=found.slot)
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from motor_identification.recording import Recording
 from motor_identification.sensor.description import tells_of_speeds
-from motor_identification.sensor.pulse_periods import divide_slot
+from motor_identification.sensor.pulses.pulse_periods import divide_slot
 from motor_identification.sensor.speed_sensor import find_counts, is_assumed
 from motor_identification.timing.row_times import AS_STAMPED, RowTimes
 from motor_identification.timing.speed_filter import MEAN, SpeedFilter

@@ -18,7 +18,7 @@ from motor_identification.measurement.pulse_intervals import (
 )
 from motor_identification.measurement.standstill import LEAST_STANDSTILL
 from motor_identification.recording import Recording
-from motor_identification.sensor.pulse_periods import divide_slot
+from motor_identification.sensor.pulses.pulse_periods import divide_slot
 from motor_identification.timing.timing import OTHERS
 
 EDGES = 24

@@ -6,8 +6,8 @@ from recorded import as_period_speed, as_speed
 from swinging import noisy, recorded
 
 from motor_identification.recording import Floats
-from motor_identification.sensor import pulse_periods
-from motor_identification.sensor.pulse_periods import (
+from motor_identification.sensor.pulses import pulse_periods
+from motor_identification.sensor.pulses.pulse_periods import (
     _Stays,
     contradicts,
     find_slot_by_decays,

@@ -1,0 +1,1 @@
+"""Speeds by the period method: a slot over the time between edges."""
