@@ -10,6 +10,11 @@ from motor_identification.logs.form import LENGTHS, CsvForm, Kind
 from motor_identification.logs.position_lattice import LEAST_LEVELS, ON_GRID, printed_digit
 from motor_identification.logs.rows.bursts import cut_stalls
 from motor_identification.logs.rows.count_rate import count_rates
+from motor_identification.logs.rows.drive.command_sign import (
+    COMMANDS_SIGN,
+    take_off_commands_sign,
+    take_off_commands_sign_of_speeds,
+)
 from motor_identification.logs.rows.drive.one_channel import ONE_CHANNEL, find_ways
 from motor_identification.logs.rows.flicker import remove_flicker
 from motor_identification.logs.rows.resets import split_at_resets
@@ -65,7 +70,9 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
             f"{form.motion} is in {form.unit}: say how many there are in a turn (--edges-per-revolution)."
         )
     signals, lengths = (signals, []) if form.speed_window else divide_by_own_rows(signals, form.nominal_period)
-    signals, signs = give_signs(signals)
+    bare = None if form.signs_as_they_are else take_off_commands_sign_of_speeds(signals)
+    signals, signs = give_signs(signals if bare is None else bare)
+    signs = signs if bare is None else [COMMANDS_SIGN.format(form.motion), *signs]
     signals, turned = (signals, []) if form.signs_as_they_are else turn_round(signals, is_speed=True)
     signals, means, one = (signals, [], inf) if form.speed_window else _undo_running_mean(signals, info.sample_period)
     values = signals.motion
@@ -177,6 +184,8 @@ def _check_steps(form: CsvForm, values: Floats, edges: int, count: float) -> Non
 def _counts(form: CsvForm, info: Info, signals: Signals) -> Motion:
     levels = signals.motion
     signals, wrapped = unwrap(signals, form)
+    bare = None if form.signs_as_they_are else take_off_commands_sign(signals)
+    signals = signals if bare is None else bare
     one_channel = not form.signs_as_they_are and find_ways(signals) is not None
     signals, turned = (signals, []) if form.signs_as_they_are or one_channel else turn_round(signals, is_speed=False)
     count = count_size(form, signals.motion, signals.voltage, levels if wrapped else None)
@@ -205,6 +214,7 @@ def _counts(form: CsvForm, info: Info, signals: Signals) -> Motion:
     findings = [
         *wrapped,
         *turned,
+        *([] if bare is None else [COMMANDS_SIGN.format(form.motion)]),
         *([] if ways is None else [ONE_CHANNEL.format(form.motion)]),
         *stalled,
         *reset,

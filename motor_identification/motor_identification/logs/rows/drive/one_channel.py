@@ -7,6 +7,9 @@ far it went either way, and it was as fast under either sign. A fit of the motor
 """
 
 from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from math import inf
 
 import numpy as np
 from scipy.signal import lfilter
@@ -47,6 +50,21 @@ def find_ways(signals: Signals) -> Floats | None:
     return np.asarray(best_way, np.float64)
 
 
+def compare_signs(signals: Signals, steps: Floats) -> tuple[float, float]:
+    """Compare what a motor that follows its voltage leaves of counts that only rise, and of the same with a sign.
+
+    The least squares of either. steps: with the sign, since the row before, shape (K,).
+    """
+    parts = _part_alike(signals)
+    if parts is None:
+        return 1.0, 1.0
+    either_way = signed = inf
+    for driven in _lag_voltage(signals):
+        either_way = min(either_way, parts.leave(np.abs(steps), np.abs(driven)))
+        signed = min(signed, parts.leave(steps, driven))
+    return either_way * parts.vary(np.abs(steps)), signed * parts.vary(steps)
+
+
 def _lag_voltage(signals: Signals) -> Iterator[Floats]:
     """Lag the voltage (K,) as motors of several time constants follow it, each from rest."""
     longest = max(run.stop - run.start for run in signals.runs.values())
@@ -59,22 +77,54 @@ def _lag_voltage(signals: Signals) -> Iterator[Floats]:
 
 def _compare(signals: Signals, driven: Floats) -> tuple[float, float]:
     """Compare counts with what drives both ways, and one way only: the shares of their variance that are left."""
-    moved, held = np.zeros(len(signals)), np.zeros(len(signals))
+    parts, moved = _part_alike(signals), count_up(signals)
+    if parts is None:
+        return 1.0, 1.0
+    one_way = (driven, np.maximum(driven, 0.0), np.maximum(-driven, 0.0))
+    return parts.leave(moved, np.abs(driven)), min(parts.leave(moved, way) for way in one_way)
+
+
+@dataclass(frozen=True)
+class _Parts:
+    """Parts of a log's rows in which a motor made counts enough for rounding to hide little."""
+
+    starts: Integers  # (P,) rows
+    held: Floats  # (K,) [ns] since the row before, 0 where there is none
+
+    @cached_property
+    def lengths(self) -> Floats:
+        """[ns] of every part."""
+        return np.asarray(np.add.reduceat(self.held, self.starts), np.float64)
+
+    def _rate(self, steps: Floats) -> Floats:
+        told = self.lengths > 0.0
+        return np.asarray(np.add.reduceat(steps, self.starts)[told] / self.lengths[told])
+
+    def vary(self, steps: Floats) -> float:
+        """The squares by which rates vary, of what is counted since the row before (K,)."""
+        rate = self._rate(steps)
+        return float(np.sum((rate - np.mean(rate)) ** 2))
+
+    def leave(self, steps: Floats, speeds: Floats) -> float:
+        """The share of those that speeds (K,) leave, whatever their unit and zero."""
+        return _leave(self._rate(steps), self._rate(speeds * self.held))
+
+
+def _part_alike(signals: Signals) -> _Parts | None:
+    """Part the rows of counts that only rise; None where they are too few."""
+    held = np.zeros(len(signals))
+    for run in signals.runs.values():
+        held[run.start + 1 : run.stop] = np.diff(signals.time[run])
+    parts = _Parts(_part(count_up(signals)), held)
+    return parts if np.count_nonzero(parts.lengths) >= FEWEST_PARTS else None
+
+
+def count_up(signals: Signals) -> Floats:
+    """What was counted since the row before, shape (K,), by each run."""
+    moved = np.zeros(len(signals))
     for run in signals.runs.values():
         moved[run.start + 1 : run.stop] = np.diff(signals.motion[run])
-        held[run.start + 1 : run.stop] = np.diff(signals.time[run])
-    parts = _part(moved)
-    lengths = np.add.reduceat(held, parts)
-    if np.count_nonzero(lengths) < FEWEST_PARTS:
-        return 1.0, 1.0
-    told = lengths > 0.0
-
-    def leave(way: Floats) -> float:
-        counted, should = (np.add.reduceat(each, parts)[told] / lengths[told] for each in (moved, way * held))
-        return _leave(counted, should)
-
-    braked = (np.maximum(driven, 0.0), np.maximum(-driven, 0.0))
-    return leave(np.abs(driven)), min(map(leave, (driven, *braked)))
+    return moved
 
 
 def _part(moved: Floats) -> Integers:

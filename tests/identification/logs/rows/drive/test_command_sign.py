@@ -1,0 +1,80 @@
+"""A sign that is the voltage's is taken off a motion of one channel, and none that is the motor's own."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from one_channel import EDGES, FINE, ROW, counted, drive, turn
+
+from motor_identification.logs.form import CsvForm, Kind
+from motor_identification.logs.motion import read_motion
+from motor_identification.logs.rows.drive.command_sign import (
+    AGAINST,
+    FEWEST_TURNS,
+    take_off_commands_sign,
+    take_off_commands_sign_of_speeds,
+)
+from motor_identification.logs.signals import Floats, Signals
+from motor_model.sample import Info
+
+VOLTS = drive(600)
+SPEEDS = turn(VOLTS, 0.5)
+
+
+def signed(volts: Floats, speeds: Floats) -> Signals:
+    """Counts of one channel with the sign of the voltage before each row."""
+    signals = counted(volts, speeds)
+    way = np.append(0.0, np.sign(volts)[:-1])
+    return replace(signals, motion=np.cumsum(way * np.diff(signals.motion, prepend=0.0)))
+
+
+def as_speeds(signals: Signals) -> Signals:
+    return replace(signals, motion=np.diff(signals.motion, prepend=0.0) * 2.0 * np.pi / EDGES / ROW)
+
+
+def test_the_sign_of_the_command_is_taken_off() -> None:
+    bare = take_off_commands_sign(signed(VOLTS, SPEEDS))
+    assert bare is not None and np.array_equal(bare.motion, counted(VOLTS, SPEEDS).motion)
+    speeds = take_off_commands_sign_of_speeds(as_speeds(signed(VOLTS, SPEEDS)))
+    assert speeds is not None and np.array_equal(speeds.motion, np.abs(as_speeds(signed(VOLTS, SPEEDS)).motion))
+
+
+def test_a_motors_own_sign_stays() -> None:
+    own = counted(VOLTS, SPEEDS, both=True)
+    assert take_off_commands_sign(own) is None and take_off_commands_sign_of_speeds(as_speeds(own)) is None
+    assert take_off_commands_sign(counted(VOLTS, SPEEDS)) is None  # which has none
+
+
+def test_a_motor_that_turns_round_within_a_row_has_a_sign_of_its_own() -> None:
+    """It goes with the voltage, too, but is slow after each change."""
+    quick = np.repeat(np.sign(VOLTS), FINE) * np.repeat(np.abs(VOLTS) / 0.05, FINE)
+    assert take_off_commands_sign(counted(VOLTS, quick, both=True)) is None
+
+
+@pytest.mark.parametrize(("share", "told"), [(0.5 * AGAINST, True), (4.0 * AGAINST, False)])
+def test_some_counts_may_go_against_the_voltage(share: float, told: bool) -> None:
+    signals = signed(VOLTS, SPEEDS)
+    steps = np.diff(signals.motion, prepend=0.0)
+    against = np.arange(len(steps)) % round(1.0 / share) == 1
+    turned = replace(signals, motion=np.cumsum(np.where(against, -steps, steps)))
+    assert (take_off_commands_sign(turned) is not None) is told
+
+
+@pytest.mark.parametrize(("turns", "told"), [(FEWEST_TURNS - 1, False), (FEWEST_TURNS + 2, True)])
+def test_a_few_turns_tell_nothing(turns: int, told: bool) -> None:
+    volts = np.where(np.arange(600) * (turns + 1) // 600 % 2, -4.0, 4.0)
+    assert (take_off_commands_sign(signed(volts, turn(volts, 0.5))) is not None) is told
+
+
+@pytest.mark.parametrize("kind", [Kind.COUNT, Kind.SPEED])
+def test_an_import_says_so_and_gives_the_motor_its_way(kind: Kind) -> None:
+    signals = signed(VOLTS, SPEEDS)
+    signals = as_speeds(signals) if kind is Kind.SPEED else signals
+    form = CsvForm("t", "u", "y", kind, "rad/s" if kind is Kind.SPEED else "count", edges_per_revolution=EDGES)
+    motion = read_motion(form, Info(sample_period=ROW), signals)
+    assert any(line.startswith("Caution: y goes the way of the voltage's sign, at once") for line in motion.findings)
+    true = np.diff(counted(VOLTS, SPEEDS, both=True).motion, prepend=0.0) * 2.0 * np.pi / EDGES / ROW
+    fast = np.abs(true) > 0.3 * np.max(np.abs(true))
+    assert np.mean(np.sign(motion.speed[fast]) == np.sign(true[fast])) > 0.97
+    kept = read_motion(replace(form, signs_as_they_are=True), Info(sample_period=ROW), signals)
+    assert not any("one channel" in line for line in kept.findings)
