@@ -14,9 +14,17 @@ import numpy as np
 from motor_identification.noise.error_data import ErrorData, log_likelihood
 from motor_identification.noise.error_learning import PRICE, learn_error_model
 from motor_identification.noise.error_model import ErrorModel, Lag
-from motor_identification.noise.run_gain import FEWEST_RUNS, MOST_SCATTER, RunGain, estimate_scatter, guess_deviation
+from motor_identification.noise.run_gain import (
+    FEWEST_RUNS,
+    MOST_SCATTER,
+    RunGain,
+    estimate_scatter,
+    goes_smoothly,
+    guess_deviation,
+)
 
 LEAST_SCATTER = 1e-6  # of the gains to begin with
+ALIKE = 0.03  # of the largest level: runs at one
 ROUNDS, SCATTER_STEPS = 2, 3  # of gains and what else is left in turns; and of the gains' scatter in each
 
 
@@ -32,10 +40,19 @@ def learn_errors_of_runs(
     if len(rows) < FEWEST_RUNS or (guess is not None and guess.gain == 0.0):
         return agreeing
     differing = _learn_with_gains(rows, lag, guess, evaluations)
-    if differing.gain > MOST_SCATTER:
+    if differing.gain > MOST_SCATTER or _follow_levels(rows, differing, lag):
         return agreeing
     gained = log_likelihood(rows, differing, lag) - log_likelihood(rows, agreeing, lag)
     return differing if gained > PRICE else agreeing
+
+
+def _follow_levels(rows: Sequence[ErrorData], model: ErrorModel, lag: Lag) -> bool:
+    """Decide whether the gains of runs go with how fast each ran: then they are a curve that a motor has."""
+    levels = np.array([float(np.sum(row.travel) / np.sum(row.duration)) for row in rows])
+    gains = np.array([row.find_gain(model, lag).deviation for row in rows])
+    mixed = np.random.default_rng(0).permutation(len(rows))  # runs alike may be in the order of a battery's charge
+    order = mixed[np.argsort(np.rint(levels[mixed] / (ALIKE * np.max(np.abs(levels)))), kind="stable")]
+    return goes_smoothly(gains[order])
 
 
 def score_under_own_errors(rows: Sequence[ErrorData], lag: Lag, guess: ErrorModel, evaluations: int) -> float:

@@ -22,6 +22,7 @@ FEWEST_RUNS = 5  # from which on the scatter of their gains is more than a guess
 # 0.1. Measured: 0.01 to 0.03 of batteries; 0.44 of a real motor that a dead zone held in some of its runs, and whose
 # speed stayed the same from 90 % of the duty on.
 MOST_SCATTER = 0.15
+ONE_IN_A_HUNDRED = 2.326  # standard deviations below the mean of a normal distribution
 
 
 @dataclass(frozen=True)
@@ -71,6 +72,18 @@ def make_projection(response: Floats, scatter: float) -> Floats:
     if power == 0.0:
         return np.zeros_like(response)
     return np.asarray(response * sqrt((1.0 - 1.0 / sqrt(1.0 + scatter**2 * power)) / power))
+
+
+def goes_smoothly(values: Floats) -> bool:
+    """Decide whether values (N,) differ from one to the next by less than values in any order do, in 99 of 100 cases.
+
+    By the ratio of mean squares of both (J. von Neumann, Ann. Math. Stat. 12(4), 1941), as normal as it is of many.
+    """
+    squares, count = float(np.sum((values - np.mean(values)) ** 2)), len(values)
+    if squares == 0.0:
+        return False
+    least = 2.0 * (1.0 - ONE_IN_A_HUNDRED * sqrt((count - 2) / (count**2 - 1)))
+    return float(np.sum(np.diff(values) ** 2)) / squares < least
 
 
 def estimate_scatter(gains: Sequence[RunGain], scatter: float) -> float:

@@ -17,12 +17,12 @@ SLOT, SHARE = 0.06, 0.02  # [rad], of it
 GAINS = 1.0 + 0.03 * np.array([1.0, -1.2, 0.4, 0.9, -0.6, -1.0, 1.3, 0.2])
 
 
-def leave(gains: np.ndarray) -> list[ErrorData]:
-    """What a true motor leaves of runs of 2 s in which it gets faster, with gains of their own."""
+def leave(gains: np.ndarray, levels: np.ndarray | None = None) -> list[ErrorData]:
+    """What a true motor leaves of runs of 2 s in which it gets faster, with gains of their own, each up to a level."""
     random, start = np.random.default_rng(1), 0.01 * np.arange(200)
-    simulated = 20.0 * (1.0 - np.exp(-LAG.rate * start))
     rows = []
-    for gain in gains:
+    for gain, level in zip(gains, np.ones(len(gains)) if levels is None else levels, strict=True):
+        simulated = 20.0 * level * (1.0 - np.exp(-LAG.rate * start))
         error = np.diff(SHARE * SLOT * random.normal(size=201)) / 0.01
         data = index_intervals(start, start + 0.01, gain * simulated + error, np.full(200, 1e-6))
         angle = np.interp(data.time, np.append(start, 2.0), np.append(0.0, np.cumsum(0.01 * simulated)))
@@ -70,3 +70,12 @@ def test_likelihood_white_residuals_and_densities_say_the_same() -> None:
     )  # outliers weigh less
     half = replace(row, counted=np.arange(200) < 100)
     assert half.score(model, LAG) == pytest.approx(half.densities(model, LAG).sum())
+
+
+def test_gains_that_go_with_the_level_of_each_run_are_a_curve_and_no_supply() -> None:
+    """Unless all are at one level: then their order may be that of a battery's charge."""
+    gains, levels = 1.0 + 0.03 * np.linspace(-1.3, 1.3, 8), np.linspace(0.3, 1.0, 8)
+    assert learn_errors_of_runs(leave(gains, levels), LAG).gain == 0.0
+    assert learn_errors_of_runs(leave(gains), LAG).gain == pytest.approx(np.std(gains), rel=0.1)
+    mixed = np.array([3, 0, 6, 2, 7, 1, 5, 4])
+    assert learn_errors_of_runs(leave(gains[mixed], levels), LAG).gain == pytest.approx(np.std(gains), rel=0.1)

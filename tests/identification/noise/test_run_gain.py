@@ -6,6 +6,7 @@ import pytest
 from motor_identification.noise.run_gain import (
     RunGain,
     estimate_scatter,
+    goes_smoothly,
     guess_deviation,
     make_projection,
     move_to_likeliest,
@@ -44,3 +45,13 @@ def test_a_guess_is_that_of_least_squares() -> None:
 def test_gains_that_nothing_is_known_of_scatter_as_assumed() -> None:
     assert estimate_scatter([RunGain(0.0, 0.0)] * 5, 0.02) == pytest.approx(0.02)
     assert estimate_scatter([RunGain(0.03, 1e12), RunGain(-0.01, 1e12)], 0.5) == pytest.approx(np.sqrt(5e-4))
+
+
+def test_values_on_a_line_go_smoothly_and_others_do_in_one_case_of_a_hundred() -> None:
+    random = np.random.default_rng(0)
+    for count in (5, 8, 15):
+        smooth = [goes_smoothly(random.standard_normal(count)) for _ in range(2000)]
+        assert 0.0 <= np.mean(smooth) < 0.015
+        line = np.linspace(-1.0, 1.0, count) + 0.05 * random.standard_normal(count)
+        assert goes_smoothly(line) is (count > 5)  # of which not even a line is less than chance
+    assert not goes_smoothly(np.zeros(8))
