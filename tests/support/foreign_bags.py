@@ -4,6 +4,8 @@ The motor in them is the tests' own first-order one with Coulomb friction, stepp
 """
 
 from dataclasses import dataclass
+from functools import cache
+from math import copysign
 from pathlib import Path
 from typing import Any
 
@@ -44,6 +46,7 @@ class Motion:
     angle: np.ndarray[Any, np.dtype[np.float64]]  # [rad]
 
 
+@cache
 def move(seconds: float = 20.0, seed: int = 1) -> Motion:
     """A motor under random levels, both ways."""
     generator = np.random.default_rng(seed)
@@ -51,11 +54,11 @@ def move(seconds: float = 20.0, seed: int = 1) -> Motion:
     levels = generator.uniform(-6.0, 6.0, count // 40 + 1)
     voltage = np.repeat(levels, 40)[:count]
     speed, angle, rows = 0.0, 0.0, []
-    for volts in voltage:
+    for volts in voltage.tolist():
         rows.append((speed, angle))
         for _ in range(fine):
             drive = volts - KV * speed
-            friction = KS * np.sign(speed) if speed != 0.0 else np.clip(drive, -KS, KS)
+            friction = copysign(KS, speed) if speed != 0.0 else min(max(drive, -KS), KS)
             step = (drive - friction) / KA * 0.005 / fine
             moved = speed + step
             speed = 0.0 if speed * moved < 0.0 and abs(volts) <= KS else moved

@@ -4,7 +4,6 @@ from pathlib import Path
 
 import pytest
 from diagnosed import fitted
-from matplotlib import pyplot as plt
 
 from motor_identification.diagnosis.result import Diagnosis
 from motor_identification.measurement.build_intervals import make_intervals
@@ -13,6 +12,8 @@ from motor_model.errors import MotorError
 
 
 def test_measured_lies_below_the_model_and_is_broader(found: Diagnosis) -> None:
+    from matplotlib import pyplot as plt  # here: who only collects this does not wait for it
+
     recording = fitted(ks=0.4)[0].problem.recordings[0]
     _, axes = plt.subplots()
     draw_overlay(axes, recording, make_intervals(recording), found.model.parameters, 0.0)

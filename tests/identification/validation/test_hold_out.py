@@ -1,6 +1,7 @@
 """Ways to hold data out, with one interface: other recordings, every fourth block of the same, or nothing."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -31,20 +32,30 @@ from motor_identification.validation.hold_out import (
     sum_held_swing,
 )
 
-TRAINING = check(record(TRUE, *profiles.random(10.0, 10.0), seed=1, irregularity=0.005, name="training")[0])
-OTHER = check(record(TRUE, *profiles.random(9.0, 4.0), seed=2, irregularity=0.005, name="other")[0])
 WRONG = THETA + np.array([0.02, 0.0, 0.0])
+
+
+@cache
+def long() -> Recording:
+    """10 s to fit to."""
+    return check(record(TRUE, *profiles.random(10.0, 10.0), seed=1, irregularity=0.005, name="training")[0])
+
+
+@cache
+def short() -> Recording:
+    """4 s to validate on."""
+    return check(record(TRUE, *profiles.random(9.0, 4.0), seed=2, irregularity=0.005, name="other")[0])
 
 
 @pytest.fixture(params=[BlocksOfSame, OtherRecordings])
 def hold_out(request: pytest.FixtureRequest) -> HoldOut:
-    made = make_hold_out([TRAINING], [OTHER] if request.param is OtherRecordings else [])
+    made = make_hold_out([long()], [short()] if request.param is OtherRecordings else [])
     assert type(made) is request.param
     return made
 
 
 def training(hold_out: HoldOut, theta: np.ndarray = THETA) -> Estimate:
-    return Estimate(hold_out.restrict(make_problem([TRAINING], ("coulomb_friction",))), theta)
+    return Estimate(hold_out.restrict(make_problem([long()], ("coulomb_friction",))), theta)
 
 
 def test_the_truth_is_at_the_floor_and_a_wrong_motor_is_not(hold_out: HoldOut) -> None:
@@ -62,7 +73,7 @@ def test_nothing_that_counts_is_fitted(hold_out: HoldOut) -> None:
         data, speed=np.where(rule.mark(data, hold_out.problem.sample_period), data.speed + 3.0, data.speed)
     )
     other = replace(hold_out, problem=replace(hold_out.problem, intervals=(spoilt,)))
-    problem = make_problem([TRAINING], ("coulomb_friction",))
+    problem = make_problem([long()], ("coulomb_friction",))
     fits = []
     for one in (hold_out, other):
         train = one.restrict(
@@ -73,22 +84,22 @@ def test_nothing_that_counts_is_fitted(hold_out: HoldOut) -> None:
     assert other.validate(training(other)).gap > hold_out.validate(training(hold_out)).gap + 1.0
 
 
-@pytest.mark.parametrize(("others", "share"), [([], 0.25), ([OTHER], 0.5)])
-def test_how_much_counts(others: list, share: float) -> None:  # type: ignore[type-arg]
-    hold_out = make_hold_out([TRAINING], others)
+@pytest.mark.parametrize(("beside", "share"), [(False, 0.25), (True, 0.5)])
+def test_how_much_counts(beside: bool, share: float) -> None:
+    hold_out = make_hold_out([long()], [short()] if beside else [])
     held = hold_out.validate(training(hold_out))
     (data,), (scored,) = held.intervals, held.scored
     assert data.duration[scored].sum() / data.duration.sum() == pytest.approx(share, abs=0.06)
     kept = training(hold_out).problem.intervals[0].duration.sum()
-    whole = make_problem([TRAINING], ()).intervals[0].duration.sum()
-    assert kept / whole == pytest.approx(1.0 if others else 0.75, abs=0.06)
+    whole = make_problem([long()], ()).intervals[0].duration.sum()
+    assert kept / whole == pytest.approx(1.0 if beside else 0.75, abs=0.06)
 
 
 def test_miscounted_intervals_do_not_count() -> None:
     recording = check(
         record(TRUE | {"miss_rate": 0.01}, *profiles.random(9.0, 4.0), seed=2, irregularity=0.005, name="other")[0]
     )
-    hold_out = make_hold_out([TRAINING], [recording])
+    hold_out = make_hold_out([long()], [recording])
     held = hold_out.validate(training(hold_out))
     assert held.miscounted > 5 and held.gap < 1.3 * held.floor(0.005)
     everything = replace(held, scored=tuple(np.ones_like(marks) for marks in held.scored))
@@ -102,8 +113,8 @@ def test_a_block_in_which_a_load_begins_at_an_instant_that_nobody_could_foresee_
     """Every other block of half a second counts; what is near its end is not told from what is in it."""
     load = {"step_voltage": 0.8, "step_time": instant}
     other = check(record(TRUE | load, *profiles.random(9.0, 6.2), seed=2, irregularity=0.005, name="other")[0])
-    hold_out = make_hold_out([TRAINING], [other])
-    fitted = Estimate(make_problem([TRAINING], ("coulomb_friction", "load_step")), np.array([*THETA, 0.8, 0.5]))
+    hold_out = make_hold_out([long()], [other])
+    fitted = Estimate(make_problem([long()], ("coulomb_friction", "load_step")), np.array([*THETA, 0.8, 0.5]))
     held = hold_out.validate(fitted)
     (data,), (scored,) = held.intervals, held.scored
     begin = data.time[data.first]
@@ -124,7 +135,7 @@ def test_no_gap_is_of_what_is_left_where_much_is_left_out(left_out: int, gone: i
 
 
 def test_directions_are_those_of_the_fitted_motion() -> None:
-    hold_out = make_hold_out([TRAINING], [OTHER])
+    hold_out = make_hold_out([long()], [short()])
     again = hold_out.correct_directions(training(hold_out))
     assert type(again) is OtherRecordings and again.problem.recordings == hold_out.problem.recordings
     assert again.problem.intervals[0].left_out <= hold_out.problem.intervals[0].left_out
@@ -169,7 +180,7 @@ def test_blocks_that_are_in_step_with_a_train_of_pulses_are_stretched() -> None:
     assert measure_held_travel(hold_out.problem, in_step).share < 0.5 * LEAST_TRAVEL_SHARE
     assert LEAST_TRAVEL_SHARE < measure_held_travel(hold_out.problem, hold_out.scored_blocks).share < 1.5
     assert hold_out.scored_blocks.stretch == STRETCHES[1]
-    random = make_hold_out([TRAINING], [])  # of which the usual blocks show as much as others
+    random = make_hold_out([long()], [])  # of which the usual blocks show as much as others
     assert random.scored_blocks.stretch == 1.0
     held = measure_held_travel(random.problem, in_step)
     assert held.share > LEAST_TRAVEL_SHARE and held.share_one_way > LEAST_WAY_SHARE

@@ -2,12 +2,12 @@
 
 from xml.etree import ElementTree
 
-from matplotlib import pyplot as plt
-
 from motor_identification.reporting.html.svg import svg_style, to_svg
 
 
 def drawn(title: str) -> str:
+    from matplotlib import pyplot as plt  # here: who only collects this does not wait for it
+
     with svg_style():
         figure, axes = plt.subplots()
         axes.plot([0.0, 1.0], [1.0, 2.0], label="speed")
