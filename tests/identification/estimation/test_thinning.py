@@ -1,6 +1,7 @@
 """Rows that are far quicker than the motion are joined, and only as many as are more than enough."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -18,10 +19,15 @@ MOTOR = {"kv": PAPER_KV, "ka": PAPER_KA, "ks": 0.3}  # of 65 ms
 STAIRS = profiles.staircase(12.0, 6, 0.5)
 
 
+@cache
+def stamped_edges() -> Recording:
+    """At 1,000 samples a second."""
+    return record(MOTOR, *STAIRS, sample_rate=1000.0, edges=4096, single_channel=False)[0]
+
+
 def logged() -> Recording:
     """Speeds of 1,000 rows a second."""
-    stamped = record(MOTOR, *STAIRS, sample_rate=1000.0, edges=4096, single_channel=False)[0]
-    return check(as_speed(stamped))
+    return check(as_speed(stamped_edges()))
 
 
 def rows_joined(recording: Recording, enough: int, monkeypatch: pytest.MonkeyPatch) -> int:
@@ -56,7 +62,7 @@ def test_the_travel_is_that_of_the_rows(monkeypatch: pytest.MonkeyPatch) -> None
 
 
 def test_edges_with_stamps_stay_as_they_are(monkeypatch: pytest.MonkeyPatch) -> None:
-    stamped = check(record(MOTOR, *STAIRS, sample_rate=1000.0, edges=4096, single_channel=False)[0])
+    stamped = check(stamped_edges())
     assert rows_joined(stamped, 100, monkeypatch) == 1 < rows_joined(check(as_counts(stamped)), 100, monkeypatch)
 
 
