@@ -96,49 +96,50 @@ class Rig:
 
     def run(self, milliseconds: float) -> None:
         """Let time pass."""
-        end = self.emulator.chip.cycle + round(milliseconds * MS)
-        while self.emulator.chip.cycle < end:
-            self._step(min(self.step, end - self.emulator.chip.cycle))
+        chip = self.emulator.chip
+        end = chip.cycle + round(milliseconds * MS)
+        while (cycle := chip.cycle) < end:
+            self._step(cycle + min(self.step, end - cycle))
 
     def until(self, condition: Callable[[], bool], most: float) -> float:
         """[ms] until something holds, which it does within `most`."""
         begin = self.emulator.chip.cycle
         while not condition():
             assert self.emulator.chip.cycle - begin < most * MS, "it did not happen"
-            self._step(self.step)
+            self._step(self.emulator.chip.cycle + self.step)
         return (self.emulator.chip.cycle - begin) / MS
 
-    def _step(self, cycles: int) -> None:
-        self.emulator.run(self.emulator.chip.cycle + cycles)
-        said = self.emulator.chip.drain()
+    def _step(self, until: int) -> None:
+        self.emulator.run(until)
+        said, now = self.emulator.chip.drain(), self.now
         self.clean += said
-        self._out.send(b"" if self.faults.stuck_telemetry or not self.plugged else said, self.faults, self.now)
+        self._out.send(b"" if self.faults.stuck_telemetry or not self.plugged else said, self.faults, now)
         if self.alive:
-            self._drive()
-        self.emulator.chip.feed(self._in.receive(self.now))
+            self._drive(now)
+        self.emulator.chip.feed(self._in.receive(now))
 
-    def _drive(self) -> None:
+    def _drive(self, now: int) -> None:
         """What the node does with what has come."""
-        data = self._out.receive(self.now)
-        readings = self.driver.received(data, self.now) if data and self.plugged else []
+        data = self._out.receive(now)
+        readings = self.driver.received(data, now) if data and self.plugged else []
         self.readings += readings
         for reading in readings:
             self.hear(reading.sample)
-        if self.voltage is not None and self.now - self._told >= 5_000_000:
-            self._told, self._said = self.now, self._said + 1
+        if self.voltage is not None and now - self._told >= 5_000_000:
+            self._told, self._said = now, self._said + 1
             careful = self.cautious and not self.gate.begun
-            self.gate = self.gate.take(0.0 if careful else self.voltage, self.now, "user", self._said)
-        if readings or self.now - self._asked > 10_000_000:
-            self._asked = self.now
+            self.gate = self.gate.take(0.0 if careful else self.voltage, now, "user", self._said)
+        if readings or now - self._asked > 10_000_000:
+            self._asked = now
             if self.driver.runs_begun > self._begun:
                 self._begun = self.driver.runs_begun
-                self.gate = self.gate.come_up(self.now)
-            order = self.driver.step(self.now, self.gate.enabled, self.gate.voltage(self.now))
+                self.gate = self.gate.come_up(now)
+            order = self.driver.step(now, self.gate.enabled, self.gate.voltage(now))
             if order.stop:
                 self.stops.append(order.stop)
-                stopped = self.gate.stop_motor(order.stop, self.now) if order.motor else self.gate.stop(order.stop)
+                stopped = self.gate.stop_motor(order.stop, now) if order.motor else self.gate.stop(order.stop)
                 self.gate = stopped
-            self._in.send(order.data if self.plugged else b"", self.faults, self.now)
+            self._in.send(order.data if self.plugged else b"", self.faults, now)
 
 
 MakeRig = Callable[..., Rig]

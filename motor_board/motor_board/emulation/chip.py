@@ -103,8 +103,9 @@ class Chip:
         Raises:
             BoardError: there are more of them than the chip has room for.
         """
-        cycles, what = edges.cycle.ctypes.data, edges.what.ctypes.data
-        if self._library.chip_edges(self._chip, after, cycles, what, len(edges.cycle)) < len(edges.cycle):
+        count = len(edges.cycle)
+        cycles, what = (edges.cycle.ctypes.data, edges.what.ctypes.data) if count else (None, None)
+        if self._library.chip_edges(self._chip, after, cycles, what, count) < count:
             raise BoardError("more encoder edges than the emulated board has room for: use shorter steps.")
 
     def feed(self, data: bytes) -> int:

@@ -36,7 +36,7 @@ class Edges:
 
     def after(self, count: int) -> "Edges":
         """Without the first `count`."""
-        return Edges(self.cycle[count:], self.what[count:])
+        return self if count == 0 else Edges(self.cycle[count:], self.what[count:])
 
 
 NO_EDGES = Edges(np.empty(0, dtype=np.uint64), np.empty(0, dtype=np.uint8))
@@ -47,6 +47,10 @@ A_UP, A_DOWN, B_ALONE, B_HIGH = Line.A_STAYS, Line.A_FALLS, Line.B_ALONE, Line.B
 FORWARD = np.array([A_UP, B_ALONE | B_HIGH, A_DOWN | B_HIGH, B_ALONE], dtype=np.uint8)
 BACKWARD = np.array([A_DOWN, B_ALONE, A_UP | B_HIGH, B_ALONE | B_HIGH], dtype=np.uint8)
 LEVELS = np.array([A_UP, A_UP | B_HIGH, A_DOWN | B_HIGH, A_DOWN], dtype=np.uint8)  # between that flank and the next
+# The same at A's flanks alone, falling and rising backward (-2, -1), none, rising and falling forward (1, 2): of one
+# channel, and of two. B is a quarter of a slot behind A.
+CAPTURES = np.array([[A_DOWN, B_HIGH, 0, 0, A_DOWN | B_HIGH], [A_DOWN, A_UP | B_HIGH, 0, A_UP, A_DOWN | B_HIGH]])
+CAPTURES = CAPTURES.astype(np.uint8)
 
 
 def edges_at_captures(cycle: NDArray[np.uint64], directions: NDArray[np.int64], two: bool) -> Edges:
@@ -57,10 +61,7 @@ def edges_at_captures(cycle: NDArray[np.uint64], directions: NDArray[np.int64], 
         directions: 1 or −1 where A rises with the shaft turning forward or backward, 2 or −2 where it falls.
         two: the encoder has two channels, so that A stays high until it falls.
     """
-    backward, falls = directions < 0, np.abs(directions) == 2
-    b_high = backward ^ falls  # a quarter of a slot behind A
-    what = np.where(falls, Line.A_FALLS, Line.A_STAYS if two else 0) | np.where(b_high, Line.B_HIGH, 0)
-    return Edges(cycle, what.astype(np.uint8))
+    return Edges(cycle, CAPTURES[int(two)][directions + 2])
 
 
 def edges_at_flanks(cycle: NDArray[np.uint64], directions: NDArray[np.int64], first: int) -> Edges:

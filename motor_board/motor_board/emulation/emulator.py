@@ -47,8 +47,8 @@ class Emulator:
         Raises:
             BoardError: the firmware has crashed.
         """
-        while self.chip.cycle < until:
-            goal = min(until, self.chip.cycle + STEP)
+        while (now := self.chip.cycle) < until:
+            goal = min(until, now + STEP)
             if self.shaft.planned < goal + AHEAD:
                 self._plan(goal + AHEAD)
             changed, sensing = self.chip.run(goal), self.chip.sensing

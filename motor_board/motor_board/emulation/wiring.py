@@ -31,6 +31,8 @@ class Wiring:
 
     def sense(self, edges: Edges, start: int, until: int, two: bool) -> Edges:
         """What of the encoder's edges between two cycles reaches the board's lines."""
+        if self.a_connected and self.b_connected and not self.channels_swapped and self.hum <= 0.0:
+            return edges
         cycle, what = edges.cycle, edges.what
         alone = (what & Line.B_ALONE) != 0
         kept = np.where(alone, self.b_connected, self.a_connected)
