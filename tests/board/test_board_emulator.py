@@ -1,7 +1,6 @@
 """`board_emulator` as a program: its port, its faults as parameters, its buttons as services."""
 
 import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -17,14 +16,9 @@ from motor_driver.frames.from_board import Hello, Telemetry
 from motor_driver.frames.from_host import Identify
 from motor_ros import qos
 
-RUN = "from motor_board.node import main; import sys; sys.exit(main())"
-
 
 def start(*arguments: object) -> "subprocess.Popen[str]":
-    command = [sys.executable, "-c", RUN, "--ros-args", *map(str, arguments)]
-    return subprocess.Popen(
-        command, env=workbench.ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    )
+    return workbench.start("motor_board", "board_emulator", "--ros-args", *arguments)
 
 
 @pytest.fixture

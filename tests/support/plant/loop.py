@@ -17,9 +17,9 @@ from motor_model.sample import Sample
 
 from .board import STANDSTILL, SignOfOneChannel
 from .encoder import Disc, edges_of
-from .motor import move
+from .motor import move_plant
 from .parameters import Values, record_of
-from .recording import Truth, record
+from .recording import RECORDED_STEP, Truth, record
 
 Floats = NDArray[np.float64]
 Law = Callable[[Sample], float]  # remembers what it needs; [V]
@@ -101,7 +101,9 @@ def answered(
     remembering = sorted(set(parameters) - WITHOUT_MEMORY)
     if remembering:
         raise ModelError(f"The closed loop cannot have {', '.join(remembering)}: leave it out.")
-    period, limit = round(1e9 / sample_rate), float(record_of(parameters)["max_voltage"])
+    p = record_of(parameters)
+    period, limit = round(1e9 / sample_rate), float(p["max_voltage"])
+    both = np.array([0.0, period * 1e-9])
     board = _Board(2.0 * np.pi / len(disc.begin), SignOfOneChannel())
     speed, angle, answer = 0.0, start_angle, 0.0
     latched = []
@@ -109,7 +111,7 @@ def answered(
         volts = min(max(answer, -limit), limit)
         latched.append(volts)
         answer = law(board.sample(START + k * period, volts))
-        motion = move(parameters, np.array([0.0, period * 1e-9]), np.array([volts, volts]), start_speed=speed)
+        motion = move_plant(p, both, np.array([volts, volts]), speed, RECORDED_STEP)
         for time in edges_of(motion, disc, start_angle=angle).time:
             board.edge(START * 1e-9 + (k * period * 1e-9 + float(time)))
         speed, angle = float(motion.speed[-1]), angle + float(motion.angle[-1])

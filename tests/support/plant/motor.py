@@ -47,7 +47,11 @@ def move(
 
     Motion starts at times[0], at angle 0, with a lagged drive that has settled at 0 V. It ends at times[-1].
     """
-    p = record_of(parameters)
+    return move_plant(record_of(parameters), times, voltages, start_speed, step)
+
+
+def move_plant(p: Any, times: Floats, voltages: Floats, start_speed: float, step: float) -> Motion:
+    """Drive a motor whose parameters are checked already, for who drives it from sample to sample."""
     start, stop = times[0], times[-1]
     switches = times + p["delay"]
     extra = np.append(switches, start + p["step_time"])
