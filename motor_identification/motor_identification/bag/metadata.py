@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Mapping
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -11,11 +12,14 @@ from motor_identification.bag.contents import Contents, Span
 from motor_identification.bag.topic import Qos, Topic
 from motor_model import yaml_file
 from motor_model.errors import MotorError
+from motor_model.printable import escape
 from motor_model.regular_file import write_text
 
 VERSION = 9
 FILE_NAME = "metadata.yaml"
 KEY = "rosbag2_bagfile_information"  # that everything stands under
+IMPORT, CAUTION_KEY = "import", "caution_"  # under custom_data: what an import said of the log, import.caution_1
+MOST_CAUTIONS, LONGEST_CAUTION = 10, 500  # that are believed of a file which anybody may have written
 
 
 def bag_metadata(files: Mapping[str, Contents], storage: str) -> dict[str, Any]:
@@ -58,6 +62,16 @@ def read_metadata(bag: Path) -> dict[str, Any]:
         return dict(yaml_file.read(bag / FILE_NAME)[KEY])
     except (OSError, MotorError, KeyError, TypeError, ValueError):
         return {}
+
+
+def read_cautions(bag: Path) -> tuple[str, ...]:
+    """Read what its import said that results of this bag have to be read with; empty where nobody noted any."""
+    noted = read_metadata(bag).get("custom_data")
+    if not isinstance(noted, dict):
+        return ()
+    begins = f"{IMPORT}.{CAUTION_KEY}"
+    told = (value for key, value in noted.items() if isinstance(value, str) and str(key).startswith(begins))
+    return tuple(f"The import cautions: {escape(text, LONGEST_CAUTION)}" for text in islice(told, MOST_CAUTIONS))
 
 
 def profiles_text(profiles: tuple[Qos, ...]) -> str:

@@ -8,7 +8,7 @@ from motor_bags import SPEED, START, fill
 
 from motor_identification.bag import BagWriter, contents
 from motor_identification.bag.contents import Contents, Span
-from motor_identification.bag.metadata import bag_metadata, read_metadata, write_metadata
+from motor_identification.bag.metadata import MOST_CAUTIONS, bag_metadata, read_cautions, read_metadata, write_metadata
 from motor_identification.bag.topic import Topic
 
 
@@ -55,3 +55,13 @@ def test_what_was_written_is_read_and_damage_is_nothing(tmp_path: Path) -> None:
         (tmp_path / "metadata.yaml").write_text(damaged, encoding="utf-8")
         assert read_metadata(tmp_path) == {}, damaged
     assert read_metadata(tmp_path / "nowhere") == {}
+
+
+def test_of_cautions_that_anybody_may_have_written_a_few_short_ones_are_believed(tmp_path: Path) -> None:
+    told = {f"import.caution_{k:02d}": "\x1b[31mx" * 1000 for k in range(100)}
+    write_metadata(tmp_path, {"custom_data": {"import.caution_": 3, "experiment.profile": "step", **told}})
+    found = read_cautions(tmp_path)
+    assert len(found) == MOST_CAUTIONS and len(set(found)) == 1
+    assert len(found[0]) < 530 and found[0].startswith("The import cautions: \\x1b[31mx")
+    write_metadata(tmp_path, {"custom_data": [told]})
+    assert read_cautions(tmp_path) == read_cautions(tmp_path / "none") == ()

@@ -70,6 +70,23 @@ def test_what_breaks_in_the_middle_leaves_no_bag(tmp_path: Path) -> None:
     assert len(list(tmp_path.iterdir())) == 1
 
 
+def test_a_bag_keeps_what_its_import_warned_of(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A detrended log came to a diagnosis that named effects of its lost means and said nothing of them."""
+    drive = [3.0 if k % 40 < 10 else 1.0 for k in range(400)]
+    speed = [2.0]
+    for volts in drive[:-1]:
+        speed.append(speed[-1] + 0.2 * (2.0 * volts - speed[-1]))
+    for name, share in (("whole", 0.0), ("detrended", 1.0)):
+        lost = [share * sum(one) / len(one) for one in (drive, speed)]
+        rows = (f"{0.01 * k:.2f},{drive[k] - lost[0]:.9f},{speed[k] - lost[1]:.9f}" for k in range(400))
+        (tmp_path / f"{name}.csv").write_text("\n".join(["time [s],voltage [V],speed [rad/s]", *rows]))
+        assert main([str(tmp_path / f"{name}.csv"), "--output", str(tmp_path / name)]) == 0
+    assert "Caution: voltage [V] and speed [rad/s] both have a mean of 0" in capsys.readouterr().out
+    assert read_recording(tmp_path / "whole").notes == ()
+    (note,) = read_recording(tmp_path / "detrended").notes
+    assert note.startswith("The import cautions: voltage [V] and speed [rad/s] both have a mean of 0, as where a trend")
+
+
 @pytest.mark.parametrize(
     "other", [["--motor", "a:x,y"], ["--steady"], ["--full-duty", "255"], ["--voltage", "u"], ["--direction", "d"]]
 )

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from motor_identification.bag.metadata import read_cautions
 from motor_identification.bag.motor.absence import explain_absence, find_only_namespace, list_names
 from motor_identification.bag.motor.cdr import Rows
 from motor_identification.bag.motor.rows import SPEED_TOPIC, read_motor_rows
@@ -27,7 +28,8 @@ def read_recording(uri: str | Path, topic_namespace: str = "", start: float = 0.
     Raises:
         RecordingError: no such bag, no bag, an empty one, one without this motor, one that identification cannot use.
     """
-    return check(read_motor(Bag(uri), topic_namespace).between(start, stop))
+    recording = check(read_motor(Bag(uri), topic_namespace).between(start, stop))
+    return replace(recording, notes=(*recording.notes, *read_cautions(Path(uri))))
 
 
 def read_motor(bag: Messages, topic_namespace: str) -> Recording:
