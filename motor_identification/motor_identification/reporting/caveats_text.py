@@ -1,9 +1,13 @@
 """What a diagnosis's numbers are beside or depend on, in words: a random torque, gains of runs, an assumed supply."""
 
 from collections.abc import Sequence
+from itertools import pairwise
+
+import numpy as np
 
 from motor_identification.diagnosis.result import Diagnosis, Finding
 from motor_identification.noise.error_model import Disturbance
+from motor_identification.recording import Floats
 from motor_identification.reporting.numbers import format_measured
 from motor_model.effects import EFFECT_BY_NAME
 
@@ -16,12 +20,34 @@ GAINS = (
     "From run to run the speed at the same voltage differed by {:.2g} % (RMS), as it does where the supply differs; if "
     "that is a battery, log its voltage."
 )
+GAINS_OR_CURVE = (
+    "From run to run the gain differed by {:.2g} % (RMS), as it does where the supply differs; but no two runs were at "
+    "the same voltage, so that it may as well be a curve over the voltage, of the bridge or of a friction: repeat a "
+    "run at the voltage of another."
+)
+MIDDLE = (0.1, 0.9)  # shares of a run's driven samples between which its voltages are said to lie
+NEAR = 0.02  # of the largest voltage: below it nothing drives, and voltages that differ by no more are the same
 
 
 def describe_gains(diagnosis: Diagnosis) -> str:
     """Say by how much the gain differs from run to run; empty where it does not."""
     scatter = diagnosis.gain_scatter
-    return GAINS.format(100.0 * scatter) if scatter > 0.0 else ""
+    if scatter <= 0.0:
+        return ""
+    words = GAINS if _share_voltages([one.voltage for one in diagnosis.after.recordings]) else GAINS_OR_CURVE
+    return words.format(100.0 * scatter)
+
+
+def _share_voltages(runs: Sequence[Floats]) -> bool:
+    """Whether two runs, each of voltages [V] with shape (K,), were driven at the same voltage for a part of the time.
+
+    Steps of one level a run, each of another, are told by a gain a run as well as by any curve over the voltage:
+    fifteen such steps of one motor, on a bridge with a dead band and a limit, came to gains that differ by 7.6 %.
+    """
+    near = NEAR * max((float(np.max(np.abs(run), initial=0.0)) for run in runs), default=0.0)
+    driven = [run[np.abs(run) > near] for run in runs if np.any(np.abs(run) > near)]
+    spans = sorted(tuple(np.quantile(run, MIDDLE)) for run in driven)
+    return any(above[0] <= below[1] + near for below, above in pairwise(spans))
 
 
 def describe_supply(diagnosis: Diagnosis) -> str:

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from motor_identification.diagnosis.result import Diagnosis, Verdict
@@ -51,3 +52,30 @@ def test_the_supply_that_a_log_does_not_tell_is_said_where_it_matters(
         replace(one, findings=(replace(found, effect=effect, ambiguous_with=rivals),), after=after)
     )
     assert ("A supply of 9.6 V is assumed" in said) is (of_supply and source == "import")
+
+
+@pytest.mark.parametrize(
+    ("levels", "shared"),
+    [
+        ((3.0, 6.0, 9.0), False),
+        ((3.0, -3.0), False),  # one way and the other: a bridge may differ
+        ((3.0, 6.0, 3.1), True),
+        ((6.0,), False),
+    ],
+)
+def test_gains_of_runs_at_voltages_of_their_own_may_be_a_curve(
+    variants: dict[Verdict, Diagnosis], levels: tuple[float, ...], shared: bool
+) -> None:
+    """Steps of one level each, every run another, were said to differ at the same voltage, which none of them had."""
+    one = replace(variants[Verdict.NOTHING_MISSING], gain_scatter=0.076)
+    base = one.after.recordings[0]
+    first = np.arange(len(base)) < len(base) // 4
+    runs = [replace(base, voltage=np.where(first, 0.002, level)) for level in levels]  # a duty of 1 at rest
+    said = summarize_diagnosis(replace(one, after=replace(one.after, recordings=tuple(runs))))
+    assert ("the speed at the same voltage differed by 7.6 % (RMS)" in said) is shared
+    assert ("but no two runs were at the same voltage" in said) is not shared
+    swings = [
+        replace(base, voltage=np.where(first, 0.0, level * np.linspace(-1.0, 1.0, len(base)))) for level in levels
+    ]
+    said = summarize_diagnosis(replace(one, after=replace(one.after, recordings=tuple(swings))))
+    assert ("the speed at the same voltage differed" in said) is (len(levels) > 1)

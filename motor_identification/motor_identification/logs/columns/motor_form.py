@@ -224,7 +224,8 @@ def _ask_about(column: str, values: Floats, kind: Kind, unit: Unit, said: Said, 
         if set(ASKED[kind]) <= set(unit.candidates):
             options += f", or of a slide in {SLIDES[kind]}"
         counted = kind is Kind.SPEED and not np.any(values % 1.0)
-        counts = f", or --count {column} where they are the counts of each row" if counted else ""
+        size = "" if said.edges_per_revolution else " and --edges-per-revolution N"
+        counts = f", or --count {column}{size} where they are the counts of each row" if counted else ""
         notes.questions.append((column, f"in {options}, which the numbers do not tell: say --unit{counts}"))
     if unit.name in ("count", "count/s") and said.edges_per_revolution is None:
         question = f"in {unit.name}: say how many counts there are in a turn (--edges-per-revolution N)"

@@ -159,7 +159,8 @@ def test_whole_speeds_of_no_unit_may_be_counts_of_each_row() -> None:
     for speed, offered in ((np.rint(SPEED / 9.7), True), (np.round(SPEED / 9.7, 1), False)):
         with pytest.raises(RecordingError, match="vel in .* which the numbers do not tell: say --unit") as complaint:
             guess_forms(table({**cells, "vel": speed}), Said())
-        assert ("--unit, or --count vel where they are the counts of each row." in str(complaint.value)) is offered
+        counts = "--unit, or --count vel and --edges-per-revolution N where they are the counts of each row."
+        assert (counts in str(complaint.value)) is offered
 
 
 @pytest.mark.parametrize(("wrong", "found"), [(0.0, True), (0.05, True), (0.2, False)])
