@@ -174,8 +174,18 @@ def _motion(
         kind = Kind.COUNT
     other = ASKED[Kind.POSITION if kind is Kind.SPEED else Kind.SPEED]
     asked = unit if sure else replace(unit, candidates=(*unit.candidates, *other))
-    _ask_about(pair.motion, values, kind, asked, said, notes)
+    _ask_about(pair.motion, values, kind, asked, said, notes, _find_speed_beside(table, pair, kind, said))
     return kind, unit
+
+
+def _find_speed_beside(table: Table, pair: Pair, kind: Kind, said: Said) -> str:
+    """Name the one speed that a log has beside its position, which a unit of speeds would choose; else empty."""
+    if kind is Kind.SPEED or said.motion or said.motors:
+        return ""
+    side = read_heading(pair.motion).side
+    headings = [heading for heading in map(read_heading, table.names) if heading.side == side]
+    speeds = [heading.name for heading in headings if heading.quantity is Quantity.SPEED]
+    return speeds[0] if len(speeds) == 1 else ""
 
 
 def _guess_untimed_kind(values: Floats) -> Kind:
@@ -214,7 +224,9 @@ def _unit(table: Table, heading: Heading, kind: Kind, said: Said, period: float,
     return guessed
 
 
-def _ask_about(column: str, values: Floats, kind: Kind, unit: Unit, said: Said, notes: Notes) -> None:
+def _ask_about(
+    column: str, values: Floats, kind: Kind, unit: Unit, said: Said, notes: Notes, speed_beside: str
+) -> None:
     if not unit.name and is_in_volts(read_heading(column)):
         sensor, taken = ("tachogenerator", "rad/s") if kind is Kind.SPEED else ("potentiometer", "rad")
         of_which = f"of a {sensor}, say --unit {taken}, and 1 V of it is taken for 1 {taken}"
@@ -226,7 +238,9 @@ def _ask_about(column: str, values: Floats, kind: Kind, unit: Unit, said: Said, 
         counted = kind is Kind.SPEED and not np.any(values % 1.0)
         size = "" if said.edges_per_revolution else " and --edges-per-revolution N"
         counts = f", or --count {column}{size} where they are the counts of each row" if counted else ""
-        notes.questions.append((column, f"in {options}, which the numbers do not tell: say --unit{counts}"))
+        speed = f", or one of {', '.join(ASKED[Kind.SPEED])} to read {speed_beside} instead" if speed_beside else ""
+        question = f"in {options}, which the numbers do not tell: say --unit{speed}{counts}"
+        notes.questions.append((column, question))
     if unit.name in ("count", "count/s") and said.edges_per_revolution is None:
         question = f"in {unit.name}: say how many counts there are in a turn (--edges-per-revolution N)"
         notes.questions.append((column, question))

@@ -7,11 +7,13 @@ import numpy as np
 import pytest
 
 from motor_identification.logs.columns.behaviour.standing_start import FIRST_ROWS
+from motor_identification.logs.columns.guess import guess_forms
 from motor_identification.logs.columns.motor_form import Notes, Rows, make_form
 from motor_identification.logs.columns.roles.roles import Roles
 from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import CsvForm, Kind
+from motor_model.errors import RecordingError
 
 ROWS = Rows("t", "s", 0.01)
 
@@ -164,6 +166,27 @@ def test_units_of_both_kinds_are_asked_for_where_the_numbers_tell_neither(rows: 
     (question,) = [text for column, text in notes.questions if column == motion]
     assert ("rad/s" in question and "rev" in question) == either
     assert ", or of a slide in mm" in question
+
+
+@pytest.mark.parametrize(
+    ("beside", "offered"),
+    [(("speed",), "speed"), ((), ""), (("speed", "velocity"), ""), (("target_speed",), "")],
+)
+def test_a_unit_of_a_speed_beside_a_position_is_an_answer_too(beside: tuple[str, ...], offered: str) -> None:
+    """Of a tacho and a position nobody may know the position's unit, and everybody that speeds are in rpm."""
+    speed = 400.0 * np.arctan(np.arange(200) / 31.0)
+    position = np.cumsum(speed) * 0.0013
+    volts = np.repeat([5.0, 15.0], 100)
+    columns = {"time [s]": 0.01 * np.arange(200), "voltage [V]": volts, "position": position}
+    log = Table(
+        Path("log.csv"), np.arange(200), {**columns, **{name: speed * (1 + k) for k, name in enumerate(beside)}}
+    )
+    with pytest.raises(RecordingError, match="position in rad, deg, .*: say --unit") as asked:
+        guess_forms(log, Said())
+    assert ("or one of rad/s, deg/s, rpm to read speed instead" in str(asked.value)) is bool(offered)
+    if offered:
+        (made,) = guess_forms(log, Said(unit="rpm")).forms
+        assert (made.motion, made.kind, made.unit) == (offered, Kind.SPEED, "rpm")
 
 
 def test_joint_states_are_in_radians() -> None:
