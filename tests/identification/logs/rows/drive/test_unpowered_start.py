@@ -55,3 +55,16 @@ def test_a_motor_that_stands_at_little_voltage_later_has_friction() -> None:
     speed = np.where((np.arange(1200) < 200) | (volts < 3.0), 0.0, 10.0 * volts)
     assert drop_unpowered_start(logged(volts, speed), SPEED)[1] == []
     assert drop_unpowered_start(logged(volts, np.zeros(1200)), SPEED)[1] == [], "one that never runs"
+
+
+@pytest.mark.parametrize("kind", [Kind.SPEED, Kind.COUNT])
+@pytest.mark.parametrize(("dead_time", "told"), [(0, True), (20, True), (60, False), (90, False)])
+def test_a_motor_that_is_as_late_all_along_had_its_supply(kind: Kind, dead_time: int, told: bool) -> None:
+    """A chirp changes in every row, in a dead time too: 60 rows of one are no switch, of 20 most of them are."""
+    k = np.arange(1500)
+    volts = 5.0 * np.sin(2.0 * np.pi * (k / 400.0 + k**2 / 1e6))
+    behind = np.concatenate((np.zeros(dead_time), volts))[: len(k)]
+    speed = np.where(k < 100, 0.0, 10.0 * behind)
+    motion = speed if kind is Kind.SPEED else np.floor(np.cumsum(speed) / 2.0)
+    found, said = drop_unpowered_start(logged(volts, motion), replace(SPEED, kind=kind))
+    assert (said != []) is told and (len(found) < len(k)) is told
