@@ -192,7 +192,8 @@ def _undecided(diagnosis: Diagnosis) -> str:
         parts = [_describe_findings(diagnosis), f"{capitalize(_describe_gap_reduction(diagnosis))}."]
     else:
         parts = [_describe_no_finding(diagnosis)]
-    if diagnosis.model.on_bound.get("kv", False):
+    follows = bool(diagnosis.findings) or find_ignored(diagnosis.after) is None
+    if diagnosis.model.on_bound.get("kv", False) and follows:  # else the same was said, and what to check
         parts.append(NO_MOTOR)
     parts.append(describe_disturbance(diagnosis))
     if diagnosis.time_limit:

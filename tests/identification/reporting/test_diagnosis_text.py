@@ -5,10 +5,12 @@ from dataclasses import replace
 
 import pytest
 
+from motor_identification.diagnosis.evidence.command_evidence import Ignored
 from motor_identification.diagnosis.result import Diagnosis, Nearest, Verdict
 from motor_identification.diagnosis.thresholds import EXPLAINED_GAP
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.noise.error_model import Disturbance
+from motor_identification.reporting import diagnosis_text
 from motor_identification.reporting.diagnosis_table import format_parameters
 from motor_identification.reporting.diagnosis_text import SEEN, summarize_diagnosis
 from motor_identification.reporting.names import capitalize, join_effects
@@ -71,6 +73,19 @@ def test_a_motor_that_no_voltage_moves_like_this_is_said(variants: dict[Verdict,
     assert "But kv ended" not in summarize_diagnosis(one)
     walled = replace(one, model=replace(one.model, on_bound=one.model.on_bound | {"kv": True}))
     assert "But kv ended at the limit of what is searched: no motor moves like this" in summarize_diagnosis(walled)
+
+
+def test_of_a_motion_that_does_not_follow_its_command_kv_is_not_said_as_well(
+    variants: dict[Verdict, Diagnosis], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A propeller's pendulum was told to check its columns twice, the second time with a But."""
+    monkeypatch.setattr(diagnosis_text, "find_ignored", lambda held: Ignored(0.0629, 0.039))
+    one = replace(variants[Verdict.NOTHING_MISSING], verdict=Verdict.UNDECIDED)
+    walled = replace(one, model=replace(one.model, on_bound=one.model.on_bound | {"kv": True}))
+    said = summarize_diagnosis(walled)
+    assert said.startswith("The motion hardly follows the command: a motor leaves 0.0629 rad/s") and "kv" not in said
+    named = replace(walled, findings=variants[Verdict.EXPLAINED].findings)
+    assert "But kv ended at the limit" in summarize_diagnosis(named)
 
 
 def test_what_has_no_size_is_told_without_a_contradiction(variants: dict[Verdict, Diagnosis]) -> None:
