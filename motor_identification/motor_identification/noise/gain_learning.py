@@ -51,8 +51,9 @@ def _follow_levels(rows: Sequence[ErrorData], model: ErrorModel, lag: Lag) -> bo
     levels = np.array([float(np.sum(row.travel) / np.sum(row.duration)) for row in rows])
     gains = np.array([row.find_gain(model, lag).deviation for row in rows])
     mixed = np.random.default_rng(0).permutation(len(rows))  # runs alike may be in the order of a battery's charge
-    order = mixed[np.argsort(np.rint(levels[mixed] / (ALIKE * np.max(np.abs(levels)))), kind="stable")]
-    return goes_smoothly(gains[order])
+    places = np.rint(levels[mixed] / (ALIKE * np.max(np.abs(levels))))
+    orders = (np.argsort(some, kind="stable") for some in (places, np.abs(places)))
+    return any(goes_smoothly(gains[mixed][order]) for order in orders)
 
 
 def score_under_own_errors(rows: Sequence[ErrorData], lag: Lag, guess: ErrorModel, evaluations: int) -> float:

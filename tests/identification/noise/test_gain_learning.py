@@ -76,6 +76,7 @@ def test_gains_that_go_with_the_level_of_each_run_are_a_curve_and_no_supply() ->
     """Unless all are at one level: then their order may be that of a battery's charge."""
     gains, levels = 1.0 + 0.03 * np.linspace(-1.3, 1.3, 8), np.linspace(0.3, 1.0, 8)
     assert learn_errors_of_runs(leave(gains, levels), LAG).gain == 0.0
+    assert learn_errors_of_runs(leave(gains, levels * np.array([1.0, -1.0] * 4)), LAG).gain == 0.0  # alike either way
     assert learn_errors_of_runs(leave(gains), LAG).gain == pytest.approx(np.std(gains), rel=0.1)
     mixed = np.array([3, 0, 6, 2, 7, 1, 5, 4])
     assert learn_errors_of_runs(leave(gains[mixed], levels), LAG).gain == pytest.approx(np.std(gains), rel=0.1)
