@@ -40,7 +40,7 @@ class Problem:
     intervals: tuple[Intervals, ...]
     unknowns: Unknowns
     workers: int = 1
-    coarseness: float = 1.0  # of the simulation, see `motor.py`
+    coarseness: float = 1.0  # of the simulation, see `motor_model/dynamics/motor.py`
     tracks: tuple[Track, ...] = ()  # the measured angle of every recording, for what is periodic in it
     kept_out: TimeBlocks | None = None  # blocks of every recording that no fit may see
     stopped: Callable[[], bool] | None = None  # asked before every simulation
