@@ -29,7 +29,7 @@ from motor_identification.noise.error_model import ErrorModel
 from motor_identification.noise.gain_learning import learn_errors_of_runs
 from motor_identification.noise.likelihood import estimate_noise, log_likelihood
 from motor_identification.validation.hold_out import HoldOut
-from motor_model.effects import EFFECT_BY_NAME
+from motor_model.effects import EFFECT_BY_NAME, do_split_kv
 
 END_ITERATIONS, END_TOLERANCE = 60, 1e-12
 
@@ -107,7 +107,7 @@ def fit_in_place(model: Model, effect: str, other: str, hold_out: HoldOut) -> Mo
 def split_kv(model: Model, hold_out: HoldOut) -> Model:
     """Split kv into back-EMF and viscous friction where an effect tells them apart, and unseen data speak for it."""
     estimate, errors = model.estimate, model.learned
-    if not can_split_kv(estimate.problem):
+    if not do_split_kv(model.effects) or not can_split_kv(estimate.problem):
         return model
 
     def make_target(problem: Problem) -> SpeedResiduals | DisturbedResiduals:

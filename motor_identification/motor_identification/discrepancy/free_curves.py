@@ -117,7 +117,7 @@ FAMILIES: dict[str, Callable[[MotionHistory, Reach], Floats]] = {
 }
 
 REPEATING = ("angle", "time", "spectrum")  # what comes and goes whatever the motor is asked to do
-OF_SPEED = ("speed", "drive", "speed_voltage")  # what is measured is part of the variable
+OF_SPEED = ("speed", "drive", "speed_voltage", "angle", "time")  # the measured speed is part of the curves
 OF_ONE_RECORDING = ("time", "spectrum")  # what is different in every recording is learnt and judged in the same one
 
 

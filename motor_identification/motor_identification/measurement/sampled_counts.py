@@ -120,7 +120,8 @@ def locate_fixes(recording: Recording, changes: Changes) -> Fixes:
     count = recording.edge_count - recording.edge_count[0]
     height = np.concatenate([count[k] + 0.0, 0.5 * (count[c] + count[c - 1])])
     fixes = Fixes(at[order], place[order], height[order], blur[order], run[order], way[order], rate[which][order])
-    jitter = min(estimate_stamp_jitter(fixes), _bound_jitter(recording, fixes))
+    bound = max(_bound_jitter(recording, fixes), measure_rounding(recording))
+    jitter = min(estimate_stamp_jitter(fixes), bound)
     return replace(fixes, blur=np.hypot(fixes.blur, jitter * fixes.rate))
 
 
@@ -133,6 +134,17 @@ def _bound_jitter(recording: Recording, fixes: Fixes) -> float:
     if late - early > EVEN_ROWS * early or noise <= 0.0 or fast <= 0.0:
         return inf
     return sqrt(max(noise**2 - PREDICTED_RATIO * UNIFORM_SIGMA**2, 0.0)) / fast
+
+
+def measure_rounding(recording: Recording) -> float:
+    """Measure by how much [s] stamps that are whole multiples of a clock's tick are off; 0 where rows are all alike.
+
+    No row number tells it: rows that come late now and then do so truly, and a count is predicted by those before.
+    """
+    steps = np.diff(recording.sample_time)
+    if not len(steps) or np.all(steps == steps[0]):
+        return 0.0
+    return float(np.gcd.reduce(steps)) * 1e-9 * UNIFORM_SIGMA
 
 
 def _within(changes: Changes, follows: Integers, samples: int) -> Bools:

@@ -141,4 +141,4 @@ def test_what_only_the_measured_speed_predicts_is_its_own_disturbance(
     monkeypatch.setattr(structure, "measure_reach", lambda histories, time: Reach(1.0, 1.0, 1.0, 1.0, time))
     monkeypatch.setattr(structure, "find_lines", lambda *_: ())
     found = find_structure([rest], [], ErrorModel(0.0, 0.0, 0.0, 1.0), Lag(1.0, 1.0))
-    assert [one.certain for one in found if one.variable in OF_SPEED] == [certain] * 3
+    assert [one.certain for one in found if one.variable in OF_SPEED] == [certain] * len(OF_SPEED)

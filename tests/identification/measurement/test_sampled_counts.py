@@ -14,6 +14,7 @@ from motor_identification.measurement.sampled_counts import (
     estimate_stamp_jitter,
     extract_count_changes,
     locate_fixes,
+    measure_rounding,
     number_runs,
     part_returns,
 )
@@ -63,6 +64,23 @@ def test_stamps_that_jitter_blur_every_fix_of_a_fast_motor(jitter: float) -> Non
     expected = np.hypot(UNIFORM_SIGMA, jitter * 8.87 / PERIOD)
     assert np.median(found.blur) == pytest.approx(expected, rel=0.3)
     assert estimate_stamp_jitter(found) == 0.0  # once it is in the blur, none is left
+
+
+@pytest.mark.parametrize("tick", [0, 100_000])
+def test_stamps_of_a_loop_that_jitters_are_as_uncertain_as_its_clocks_tick(tick: int) -> None:
+    """A millisecond's tenth of rows of 5 ms: counts of even rows would bound the jitter far below it."""
+    recording, _, slots = fixes_at(80.0, 3.0)
+    true = np.cumsum(np.round(PERIOD * 1e9 * (1.0 + 0.01 * np.random.default_rng(1).standard_normal(len(recording)))))
+    stamps = np.round(true / max(tick, 1)) * max(tick, 1)
+    loop = replace(
+        recording,
+        sample_time=(stamps - stamps[0]).astype(np.int64),
+        edge_count=np.floor(slots((true - true[0]) * 1e-9)).astype(np.int64),
+    )
+    assert measure_rounding(loop) == pytest.approx(max(tick, 1) * 1e-9 / np.sqrt(12.0))
+    assert measure_rounding(recording) == 0.0  # whose rows are all alike
+    blur = np.hypot(UNIFORM_SIGMA, tick * 1e-9 / np.sqrt(12.0) * 80.0 / PERIOD)
+    assert np.median(locate_fixes(loop, extract_count_changes(loop)).blur) == pytest.approx(blur, rel=0.1)
 
 
 def test_a_dozen_fixes_tell_no_jitter() -> None:

@@ -90,10 +90,10 @@ def _has_unit_of_others(name: str) -> bool:
 
 def _unit_at_the_end(words: tuple[str, ...]) -> tuple[str, tuple[str, ...]]:
     """`speed rad s` is in rad/s, `pos deg` in degrees; a name that is only a unit keeps its word."""
-    if len(words) > 3 and words[-2] == "per" and words[-1] in _PER:  # velocityRadPerSec
+    if len(words) > 2 and words[-2] == "per" and words[-1] in _PER:  # velocityRadPerSec, deg_per_s
         unit = UNIT_BY_SPELLING.get(f"{UNIT_BY_SPELLING.get(words[-3], '')}/{_PER[words[-1]]}", "")
         if unit:
-            return unit, words[:-3]
+            return unit, words[:-3] or words[:1]
     if words[-1:] == ("hz",) and any(word.isdigit() for word in words[-3:-1]):  # sampled at 8 kHz: no speed
         return "", words
     for length in (2, 1):

@@ -86,6 +86,9 @@ current_mA        | current        | mA    |
 batt_mV           | supply voltage | mV    |
 velocityRadPerSec | speed          | rad/s |
 omega_degPerSec   | speed          | deg/s |
+deg_per_s         | speed          | deg/s |
+counts_per_second | speed          | count/s |
+rev_per_min       | speed          | rpm   |
 wheel turns per minute | speed     | rpm   |
 theta_dot         | speed          |       |
 Temps [ms]        | time           | ms    |
