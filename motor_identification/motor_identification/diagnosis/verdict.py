@@ -165,7 +165,10 @@ def decide(
         return Verdict.UNDECIDED, EFFECT_BY_NAME[undetermined[0]].shown_by
     unclear = next((finding.suggested_experiment for finding in findings if finding.ambiguous_with), "")
     if not complete and last.held.confirms:
-        return Verdict.UNEXPLAINED, unclear or ("rich" if hidden else "")
+        # What leaves less than its own sensor does, as it was learned, is no motor that lacks something.
+        below = selection.outside is None and last.held.gap <= thresholds.EXPLAINED_GAP * last.sensor_floor
+        verdict = Verdict.UNDECIDED if below else Verdict.UNEXPLAINED
+        return verdict, unclear or ("rich" if hidden or below else "")
     if unclear or any(finding.sensor_may_lag for finding in findings):  # of a sensor no experiment tells more
         return Verdict.UNDECIDED, unclear
     if not findings and complete and find_ignored(last.held) is not None:

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from stub_models import short_by, stub_model, stub_test
+from stub_models import StubModel, short_by, stub_model, stub_test
 from stub_selections import selection_of, step_of
 
 from motor_identification.diagnosis import thresholds
@@ -153,3 +153,14 @@ def test_what_may_be_missing_is_not_told_to_be_unseen() -> None:
     assert leave_out_named(hidden, (), ()) == hidden
     assert leave_out_named(hidden, (), ("coulomb_friction",)) == ("dead_zone", "backlash")
     assert leave_out_named(hidden, (finding("dead_zone"),), ()) == ("coulomb_friction", "backlash")
+
+
+@pytest.mark.parametrize(
+    ("floor", "ended"), [(1.1 * OVER, (Verdict.UNDECIDED, "rich")), (0.5 * OVER, (Verdict.UNEXPLAINED, ""))]
+)
+def test_what_leaves_less_than_its_own_sensor_lacks_nothing_for_sure(
+    monkeypatch: pytest.MonkeyPatch, floor: float, ended: tuple[Verdict, str]
+) -> None:
+    """As motors that were fitted as one: it was said to lack something outside the table at 0.36 times its floor."""
+    monkeypatch.setattr(StubModel, "sensor_floor", floor)
+    assert decide((), chosen(stub_model(OVER, 0.0)), ()) == ended
