@@ -95,3 +95,8 @@ class Diagnosis:
     nearest: Nearest | None = None  # where nothing explains the gap, but something takes away most of it
     gain_scatter: float = 0.0  # standard deviation of the runs' gains, as of a supply that differs; 0 where they agree
     time_limit: float = 0.0  # [s] that ended the search before everything was tried; 0 where none did
+
+    @property
+    def is_of_no_motor(self) -> bool:
+        """Whether kv ended at the limit of what is searched: no motor moves like this, and what it lacks is unsure."""
+        return self.model.on_bound.get("kv", False)

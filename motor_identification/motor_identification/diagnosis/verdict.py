@@ -43,7 +43,7 @@ def conclude(
     findings, hidden = _list_findings(selection, model, gaps), find_undetectable(last)
     findings = doubt_lags(findings) if sensor_may_lag else findings
     verdict, suggestion = decide(findings, selection, hidden, undetermined)
-    return Diagnosis(
+    found = Diagnosis(
         verdict=verdict,
         findings=findings,
         baseline=model if base is last else summarise_fit(base.whitened, search, elapsed),
@@ -68,6 +68,7 @@ def conclude(
         undetermined=undetermined,
         gain_scatter=last.errors.gain,
     )
+    return replace(found, verdict=Verdict.UNDECIDED) if found.is_of_no_motor else found
 
 
 def doubt_lags(findings: Sequence[Finding]) -> tuple[Finding, ...]:

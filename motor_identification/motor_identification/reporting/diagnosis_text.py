@@ -148,7 +148,7 @@ def _describe_findings(diagnosis: Diagnosis) -> str:
     clear = [one for one in diagnosis.findings if not (one.ambiguous_with or one.sensor_may_lag)]
     vague = list_vague(clear)
     sized = [one for one in clear if one not in vague]
-    sure = diagnosis.after.confirms
+    sure = diagnosis.after.confirms and not diagnosis.is_of_no_motor
     parts = [f"{_describe_found(sized, sure)}."] if sized else []
     parts += [f"{_describe_found(vague, sure=False)}; this recording does not tell how much."] if vague else []
     missing = "is missing" if sure else "may be missing"
@@ -193,7 +193,7 @@ def _undecided(diagnosis: Diagnosis) -> str:
     else:
         parts = [_describe_no_finding(diagnosis)]
     follows = bool(diagnosis.findings) or find_ignored(diagnosis.after) is None
-    if diagnosis.model.on_bound.get("kv", False) and follows:  # else the same was said, and what to check
+    if diagnosis.is_of_no_motor and follows:  # else the same was said, and what to check
         parts.append(NO_MOTOR)
     parts.append(describe_disturbance(diagnosis))
     if diagnosis.time_limit:

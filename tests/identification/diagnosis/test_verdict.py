@@ -1,17 +1,29 @@
 """How a diagnosis ends, and missed edges as a finding."""
 
 from dataclasses import replace
+from typing import cast
 
 import pytest
+from diagnosed import fitted
 from stub_models import StubModel, short_by, stub_model, stub_test
 from stub_selections import selection_of, step_of
 
 from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis import verdict as verdicts
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.result import Finding, Nearest, Verdict
-from motor_identification.diagnosis.selection.selection import Selection
-from motor_identification.diagnosis.verdict import decide, doubt_lags, find_missed_edges, find_nearest, leave_out_named
+from motor_identification.diagnosis.selection.selection import Selection, begin_selection
+from motor_identification.diagnosis.verdict import (
+    conclude,
+    decide,
+    doubt_lags,
+    find_missed_edges,
+    find_nearest,
+    leave_out_named,
+)
 from motor_identification.discrepancy.structure import Structure
+from motor_identification.estimation.request import SearchReport
+from motor_identification.uncertainty.summary import summarise_fit
 from motor_model.effects import EFFECT_BY_NAME
 
 
@@ -164,3 +176,17 @@ def test_what_leaves_less_than_its_own_sensor_lacks_nothing_for_sure(
     """As motors that were fitted as one: it was said to lack something outside the table at 0.36 times its floor."""
     monkeypatch.setattr(StubModel, "sensor_floor", floor)
     assert decide((), chosen(stub_model(OVER, 0.0)), ()) == ended
+
+
+def test_what_a_model_lacks_that_is_no_motor_is_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two logs of what was no motor's axis were explained by a friction."""
+    estimate, hold_out = fitted()
+    selection = begin_selection(estimate, hold_out, 1)
+    bags = estimate.problem.recordings
+    fit = summarise_fit(selection.model.whitened, cast(SearchReport, None), lambda: 0.0)
+    for hit, verdict in ((False, Verdict.NOTHING_MISSING), (True, Verdict.UNDECIDED)):
+        told = replace(fit, on_bound={**fit.on_bound, "kv": hit})
+        monkeypatch.setattr(verdicts, "summarise_fit", lambda *_, told=told: told)
+        monkeypatch.setattr(verdicts, "find_undetectable", lambda model: ())
+        found = conclude(selection.model, selection, bags, (), cast(SearchReport, None), lambda: 0.0)
+        assert (found.verdict, found.is_of_no_motor) == (verdict, hit)

@@ -73,6 +73,9 @@ def test_a_motor_that_no_voltage_moves_like_this_is_said(variants: dict[Verdict,
     assert "But kv ended" not in summarize_diagnosis(one)
     walled = replace(one, model=replace(one.model, on_bound=one.model.on_bound | {"kv": True}))
     assert "But kv ended at the limit of what is searched: no motor moves like this" in summarize_diagnosis(walled)
+    named = replace(walled, findings=variants[Verdict.EXPLAINED].findings)
+    said = summarize_diagnosis(named)
+    assert walled.is_of_no_motor and " may be missing" in said and "was missing" not in said
 
 
 def test_of_a_motion_that_does_not_follow_its_command_kv_is_not_said_as_well(
