@@ -23,7 +23,7 @@ from motor_identification.logs.rows.speed_sign import give_signs
 from motor_identification.logs.rows.swapped_sign import turn_round
 from motor_identification.logs.rows.wraps import unwrap
 from motor_identification.logs.signals import Floats, Integers, Signals
-from motor_identification.sensor.pulses.timer_ticks import find_speed_of_a_tick
+from motor_identification.sensor.pulses.timer_ticks import are_over_slots
 from motor_identification.sensor.running_mean import find_running_mean, size_of_count, take_single_rows
 from motor_identification.sensor.speed_sensor import are_smoothed, find_noise
 from motor_identification.sensor.value_lattice import find_lattice
@@ -88,7 +88,7 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
         edges = agree_on_edges(form, turn / (form.count_quantum * unit * window), AGREE_SPEED)
     smoothed: list[str] = []
     if edges:
-        edges, smoothed = _confirm_edges(form, signals, edges, edge_angle(edges, form.gear) / window / unit)
+        edges, smoothed = _confirm_edges(form, signals, edges, edge_angle(edges, form.gear) / window / unit, window)
     info = replace(info, measurement=Measurement.SPEED, speed_window=window, speed_lag=lag, edges_per_revolution=edges)
     assumed = "" if form.speed_window else " (assumed: one sample period; otherwise: --speed-window)"
     placed = "" if form.speed_lag is not None else " (assumed: the window ends there; otherwise: --speed-lag)"
@@ -154,13 +154,13 @@ def _about_count(form: CsvForm, signals: Signals, edges: int, window: float) -> 
     )
 
 
-def _confirm_edges(form: CsvForm, signals: Signals, edges: int, count: float) -> tuple[int, list[str]]:
-    """Edges per revolution, whose count in the form's unit is given, and none of smoothed speeds; and say so.
+def _confirm_edges(form: CsvForm, signals: Signals, edges: int, count: float, window: float) -> tuple[int, list[str]]:
+    """Edges per revolution, whose count in the form's unit within a window [s] is given; none of smoothed speeds.
 
     Raises:
         RecordingError: a unit or the window is wrong; what is given in counts has no unit that could be.
     """
-    if find_speed_of_a_tick(signals.motion) > 0.0:
+    if are_over_slots(signals.motion, count * window):
         return 0, [TIMED.format(form.motion)]
     smoothed = are_smoothed(signals.motion, signals.voltage, count)
     if not smoothed or form.unit != "count/s":

@@ -17,6 +17,7 @@ FASTEST = 0.99  # quantile of the speeds, from which on some may be false
 SLOWER = (1.5, 2.5, 5.0, 12.0)  # times slower than that: a motor that hardly changes its speed, and one that stops
 FEWEST_SPEEDS = 40  # different ones
 MOST_TICKS = 20_000.0  # of the slowest that is looked at
+MOST_SLOTS, SAME = 4, 1e-3  # of which a mean may be; share of it, by which an angle may be off
 # [s] of what programs and timers count in: microseconds, the four of an Arduino's clock, timers of 16 and 2 MHz behind
 # their dividers, the tens and hundreds that some divide by, and milliseconds.
 TICKS = (62.5e-9, 0.5e-6, 1e-6, 4e-6, 8e-6, 10e-6, 16e-6, 64e-6, 100e-6, 1e-3)
@@ -42,6 +43,16 @@ def _find(levels: bytes, top: float) -> float:
         if step > 0.0:
             return 1.0 / step
     return 0.0
+
+
+def are_over_slots(speed: Floats, slot: float) -> bool:
+    """Decide whether speeds (K,) are over whole ticks of a timer, as there are, for one slot or a few of them each.
+
+    slot: [rad], or whatever the speeds are in times a second.
+    """
+    slots = np.array([found / slot for found in list_slots(speed)])
+    numbers = np.rint(slots)
+    return bool(np.any((np.abs(slots - numbers) < SAME * numbers) & (numbers <= MOST_SLOTS)))
 
 
 def list_slots(speed: Floats, longest: float = inf) -> tuple[float, ...]:

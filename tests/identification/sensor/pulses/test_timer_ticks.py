@@ -7,7 +7,13 @@ import pytest
 from scipy.signal import lfilter
 
 from motor_identification.recording import Floats
-from motor_identification.sensor.pulses.timer_ticks import FEWEST_SPEEDS, TICKS, find_speed_of_a_tick, list_slots
+from motor_identification.sensor.pulses.timer_ticks import (
+    FEWEST_SPEEDS,
+    TICKS,
+    are_over_slots,
+    find_speed_of_a_tick,
+    list_slots,
+)
 
 SLOT, TICK = tau / 44, 1e-6
 
@@ -69,3 +75,10 @@ def test_few_speeds_tell_nothing() -> None:
 def test_slots_are_those_of_ticks_as_there_are_up_to_the_longest() -> None:
     slots = list_slots(timed(swinging()), 1.0)
     assert slots == tuple(pytest.approx(SLOT / TICK * tick, rel=1e-5) for tick in TICKS if SLOT / TICK * tick <= 1.0)
+
+
+def test_speeds_are_over_a_slot_that_is_said_or_a_few_of_it_and_over_no_other() -> None:
+    speed = timed(swinging())
+    assert are_over_slots(speed, SLOT) and are_over_slots(speed, SLOT / 3.0)
+    assert not are_over_slots(speed, 1.002 * SLOT) and not are_over_slots(speed, SLOT / 1.5)
+    assert not are_over_slots(swinging(), SLOT)
