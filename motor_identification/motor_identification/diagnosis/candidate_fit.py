@@ -22,7 +22,7 @@ from motor_identification.diagnosis.fits.disturbed_fit import (
 from motor_identification.diagnosis.fits.effect_fit import drop_effect
 from motor_identification.diagnosis.fits.starts import list_starts, start_with
 from motor_identification.estimation.estimate import Estimate
-from motor_identification.estimation.kv_split import can_split_kv, fit_split_kv
+from motor_identification.estimation.kv_split import can_split_kv, fit_split_kv, is_split_of_motor
 from motor_identification.estimation.least_squares import SpeedResiduals, fit_speeds
 from motor_identification.estimation.problem import Problem
 from motor_identification.noise.error_model import ErrorModel
@@ -118,7 +118,8 @@ def split_kv(model: Model, hold_out: HoldOut) -> Model:
     split = validate_model(hold_out, fit_split_kv(estimate, make_target), model)
     if split.beside_torque and split.likelihood > model.likelihood:
         split = refine_beside_torque(split, hold_out)
-    return split if split.likelihood - model.likelihood > likelihood_threshold() else model
+    better = split.likelihood - model.likelihood > likelihood_threshold() and is_split_of_motor(split.estimate)
+    return split if better else model
 
 
 def refit_without(model: Model, effect: str, hold_out: HoldOut) -> Model:

@@ -19,6 +19,7 @@ from motor_identification.recording import Floats
 from motor_model.effects import VISCOUS_SHARE, do_split_kv
 
 ITERATIONS, TOLERANCE = 20, 1e-8
+NEAR_END = 0.98  # of the largest share
 CHANCE = 1e-3  # of splitting where there is no viscous friction
 
 
@@ -44,6 +45,15 @@ def fit_split_kv(estimate: Estimate, make_target: Callable[[Problem], Residuals]
     return Estimate(larger, best, spent)
 
 
+def is_split_of_motor(split: Estimate) -> bool:
+    """Decide whether the viscous share ended within what is searched; at its end it stands in for something else.
+
+    A supply that ran down was taken for a warming-up of a motor with nothing but viscous friction.
+    """
+    share = split.theta[split.problem.unknowns.names.index(VISCOUS_SHARE.name)]
+    return bool(share < NEAR_END * VISCOUS_SHARE.high)
+
+
 def split_kv_if_needed(fit: WhitenedFit) -> WhitenedFit:
     """Split kv of a fit where its white squares fall by more than chance makes of one parameter more."""
     if not can_split_kv(fit.problem):
@@ -51,7 +61,8 @@ def split_kv_if_needed(fit: WhitenedFit) -> WhitenedFit:
     split = fit_split_kv(fit.estimate, fit.residuals.on)
     before, after = _sum_squares(fit.residuals, fit.theta), _sum_squares(fit.residuals.on(split.problem), split.theta)
     noise = max(after / len(fit.problem.weight), 1.0)
-    return fit_whitened(split) if before - after > float(chdtri(1, CHANCE)) * noise else fit
+    better = before - after > float(chdtri(1, CHANCE)) * noise and is_split_of_motor(split)
+    return fit_whitened(split) if better else fit
 
 
 def _sum_squares(target: Residuals, theta: Floats) -> float:

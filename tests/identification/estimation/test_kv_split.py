@@ -3,13 +3,14 @@
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from fits import BASE, made, quick
 from plant import profiles
 
 from motor_identification.diagnose import diagnose
 from motor_identification.estimation.estimate import Estimate
-from motor_identification.estimation.kv_split import can_split_kv, fit_split_kv
+from motor_identification.estimation.kv_split import can_split_kv, fit_split_kv, is_split_of_motor
 from motor_identification.estimation.least_squares import SpeedResiduals
 from motor_identification.estimation.problem import make_problem
 from motor_identification.identify import identify
@@ -17,6 +18,7 @@ from motor_identification.monitoring.model_gap import Model, find_changes, measu
 from motor_identification.recording import Recording
 from motor_identification.reporting.model_comparison import Identified
 from motor_model import model_file
+from motor_model.effects import VISCOUS_SHARE
 
 SAG = {"ks": 0.3, "sag": 0.15}
 WARM = {"ks": 0.3, "resistance_rise": 0.25, "warm_up_time": 8.0}
@@ -39,6 +41,9 @@ def test_it_is_split_once_and_only_beside_what_tells_its_parts_apart() -> None:
     assert split.problem.unknowns.splits_kv and not can_split_kv(split.problem)
     assert split.problem.with_effects(("coulomb_friction",)).unknowns.names == ("kv", "ka", "ks")
     assert split.parameters.viscous_share == pytest.approx(split.theta[-1])
+    for share, is_motor in ((0.97, True), (0.99, False)):  # of the largest
+        ended = np.append(split.theta[:-1], share * VISCOUS_SHARE.high)
+        assert is_split_of_motor(replace(split, theta=ended)) is is_motor
 
 
 def test_an_identified_motor_tells_how_much_of_kv_is_viscous_friction_and_its_file_keeps_it(tmp_path: Path) -> None:
