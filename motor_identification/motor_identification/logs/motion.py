@@ -70,9 +70,7 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
             f"{form.motion} is in {form.unit}: say how many there are in a turn (--edges-per-revolution)."
         )
     signals, lengths = (signals, []) if form.speed_window else divide_by_own_rows(signals, form.nominal_period)
-    bare = None if form.signs_as_they_are else take_off_commands_sign_of_speeds(signals)
-    signals, signs = give_signs(signals if bare is None else bare)
-    signs = signs if bare is None else [COMMANDS_SIGN.format(form.motion), *signs]
+    signals, signs = _give_own_signs(form, signals)
     signals, turned = (signals, []) if form.signs_as_they_are else turn_round(signals, is_speed=True)
     signals, means, one = (signals, [], inf) if form.speed_window else _undo_running_mean(signals, info.sample_period)
     values = signals.motion
@@ -103,6 +101,15 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
         *smoothed,
     )
     return Motion(signals, values * unit, np.zeros(len(values), np.int64), info, findings)
+
+
+def _give_own_signs(form: CsvForm, signals: Signals) -> tuple[Signals, list[str]]:
+    """Give speeds the signs of the motion where they have none, or the command's; and say so."""
+    bare = None if form.signs_as_they_are else take_off_commands_sign_of_speeds(signals)
+    if bare is None:
+        return give_signs(signals)
+    signed, said = give_signs(bare)
+    return (signed, [COMMANDS_SIGN.format(form.motion), *said]) if said else (signals, [])
 
 
 def _undo_running_mean(signals: Signals, period: float) -> tuple[Signals, list[str], float]:
