@@ -217,7 +217,7 @@ SPEC_BY_NAME = {spec.name: spec for spec in SPECS}
 
 # Of kv, what is viscous friction and not back-EMF: told apart only by effects that treat the two differently
 # (`splits_kv`). A motor has it as its torque constant.
-VISCOUS_SHARE = P("viscous_share", "–", 0.0, 0.0, 0.75, starts=(0.1, 0.4))
+VISCOUS_SHARE = P("viscous_share", "–", 0.0, 0.0, 0.75, starts=(0.2,))
 
 # The vector the compiled code works on: every parameter in the order of the table, then the supply, then how many times
 # longer than full accuracy allows a piece of the motion may be, then what a measured current adds (`physical/`),
