@@ -137,14 +137,14 @@ def _bound_jitter(recording: Recording, fixes: Fixes) -> float:
 
 
 def measure_rounding(recording: Recording) -> float:
-    """Measure by how much [s] stamps that are whole multiples of a clock's tick are off; 0 where rows are all alike.
+    """Measure by how much [s] stamps that are whole multiples of a clock's tick are off.
 
-    No row number tells it: rows that come late now and then do so truly, and a count is predicted by those before.
+    No row number tells it: rows that come late now and then do so truly, and a count is predicted by those before. 0
+    where rows are all alike, or some of those are missing: the step that all are multiples of is a row then, no tick.
     """
     steps = np.diff(recording.sample_time)
-    if not len(steps) or np.all(steps == steps[0]):
-        return 0.0
-    return float(np.gcd.reduce(steps)) * 1e-9 * UNIFORM_SIGMA
+    tick = int(np.gcd.reduce(steps)) if len(steps) else 0
+    return 0.0 if not len(steps) or tick == np.min(steps) else tick * 1e-9 * UNIFORM_SIGMA
 
 
 def _within(changes: Changes, follows: Integers, samples: int) -> Bools:

@@ -78,7 +78,8 @@ def test_stamps_of_a_loop_that_jitters_are_as_uncertain_as_its_clocks_tick(tick:
         edge_count=np.floor(slots((true - true[0]) * 1e-9)).astype(np.int64),
     )
     assert measure_rounding(loop) == pytest.approx(max(tick, 1) * 1e-9 / np.sqrt(12.0))
-    assert measure_rounding(recording) == 0.0  # whose rows are all alike
+    kept = np.delete(np.arange(len(recording)), [50, 51, 90])
+    assert measure_rounding(recording) == measure_rounding(recording.at_rows(kept)) == 0.0  # rows alike, some missing
     blur = np.hypot(UNIFORM_SIGMA, tick * 1e-9 / np.sqrt(12.0) * 80.0 / PERIOD)
     assert np.median(locate_fixes(loop, extract_count_changes(loop)).blur) == pytest.approx(blur, rel=0.1)
 
