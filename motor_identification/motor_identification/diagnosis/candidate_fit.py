@@ -13,18 +13,12 @@ from motor_identification.diagnosis.evidence.torque_evidence import (
     score_held_out,
     score_training,
 )
-from motor_identification.diagnosis.fits.disturbed_fit import (
-    DisturbedResiduals,
-    fit_beside_torque,
-    list_error_data,
-    make_disturbed_residuals,
-)
-from motor_identification.diagnosis.fits.effect_fit import drop_effect
+from motor_identification.diagnosis.fits.disturbed_fit import fit_beside_torque, list_error_data
+from motor_identification.diagnosis.fits.effect_fit import drop_effect, make_target
 from motor_identification.diagnosis.fits.starts import list_starts, start_with
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.kv_split import can_split_kv, fit_split_kv, is_split_of_motor
-from motor_identification.estimation.least_squares import SpeedResiduals, fit_speeds
-from motor_identification.estimation.problem import Problem
+from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.noise.gain_learning import learn_errors_of_runs
 from motor_identification.noise.likelihood import estimate_noise, log_likelihood
@@ -106,16 +100,12 @@ def fit_in_place(model: Model, effect: str, other: str, hold_out: HoldOut) -> Mo
 
 def split_kv(model: Model, hold_out: HoldOut) -> Model:
     """Split kv into back-EMF and viscous friction where an effect tells them apart, and unseen data speak for it."""
-    estimate, errors = model.estimate, model.learned
+    estimate = model.estimate
     if not do_split_kv(model.effects) or not can_split_kv(estimate.problem):
         return model
-
-    def make_target(problem: Problem) -> SpeedResiduals | DisturbedResiduals:
-        if errors is None:
-            return SpeedResiduals(problem)
-        return replace(make_disturbed_residuals(estimate, errors), problem=problem)
-
-    split = validate_model(hold_out, fit_split_kv(estimate, make_target), model)
+    target = make_target(estimate, model.learned)
+    fitted = fit_split_kv(estimate, lambda problem: replace(target, problem=problem))
+    split = validate_model(hold_out, fitted, model)
     if split.beside_torque and split.likelihood > model.likelihood:
         split = refine_beside_torque(split, hold_out)
     better = split.likelihood - model.likelihood > likelihood_threshold() and is_split_of_motor(split.estimate)

@@ -4,9 +4,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from motor_identification.diagnosis.selection.selection import Selection, begin_selection
+from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.request import Request, SearchReport
 from motor_identification.estimation.search.global_search import search_globally
-from motor_identification.estimation.thinning import make_thinned_problem
+from motor_identification.estimation.thinning import thin_problem
 from motor_identification.periodic.periodic_fit import add_periodic_effects, drop_periodic_effects
 from motor_identification.recording import Recording
 from motor_identification.timing.speed_timing import find_timing
@@ -41,7 +42,7 @@ def fit_known(recordings: Sequence[Recording], request: Request, hold_out: HoldO
     """Fit the model to begin with to what is not held out, searched globally."""
     known = normalised(request.effects)
     effects, stopped = drop_periodic_effects(known), hold_out.problem.stopped
-    whole = make_thinned_problem(recordings, effects, request.workers, stopped)
+    whole = thin_problem(make_problem(recordings, effects, request.workers, stopped))
     estimate, search = search_globally(hold_out.restrict(whole), request.search)
     single = estimate.on(replace(estimate.problem, workers=1))  # effects are tried at a time instead
     return begin_selection(add_periodic_effects(single, known), hold_out, request.workers), search

@@ -3,11 +3,11 @@
 A log of a minute at 1 kHz says no more of a motor of 20 ms than the means over 4 ms do, at a quarter of the time.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
-from motor_identification.estimation.problem import Problem, make_problem
+from motor_identification.estimation.problem import Problem
 from motor_identification.measurement.edit_intervals import join_intervals
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.recording import Floats, Recording
@@ -20,19 +20,9 @@ MOST_JOINED = 8  # rows
 MOST_SPREAD = 0.01
 
 
-def make_thinned_problem(
-    recordings: Sequence[Recording],
-    effects: tuple[str, ...],
-    workers: int = 1,
-    stopped: Callable[[], bool] | None = None,
-) -> Problem:
-    """Make the problem of a diagnosis, which fits many models: what they are fitted to and judged by is thinned alike.
-
-    Raises:
-        ModelError, RecordingError: as `make_problem` does.
-    """
-    whole = make_problem(recordings, effects, workers, stopped)
-    return whole.with_intervals(thin_out(recordings, whole.intervals))
+def thin_problem(problem: Problem) -> Problem:
+    """Thin the problem of a diagnosis, which fits many models: what they are fitted to and judged by alike."""
+    return problem.with_intervals(thin_out(problem.recordings, problem.intervals))
 
 
 def thin_out(recordings: Sequence[Recording], intervals: Sequence[Intervals]) -> tuple[Intervals, ...]:

@@ -14,8 +14,8 @@ import numpy as np
 from motor_identification.estimation.direction_correction import correct_directions
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.miscounts import mark_miscounts
-from motor_identification.estimation.problem import Problem
-from motor_identification.estimation.thinning import make_thinned_problem
+from motor_identification.estimation.problem import Problem, make_problem
+from motor_identification.estimation.thinning import thin_problem
 from motor_identification.measurement.command_swing import count_levels, count_responses, measure_swings
 from motor_identification.measurement.time_blocks import TimeBlocks
 from motor_identification.noise.run_gain import FEWEST_RUNS
@@ -151,7 +151,7 @@ def make_hold_out(
     Raises:
         RecordingError: a recording has no usable motion.
     """
-    problem = make_thinned_problem(validation or recordings, (), stopped=stopped)
+    problem = thin_problem(make_problem(validation or recordings, (), stopped=stopped))
     if validation:
         return OtherRecordings(problem, TimeBlocks(2))
     swings = [measure_swings(recording) for recording in recordings]

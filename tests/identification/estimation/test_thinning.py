@@ -10,7 +10,7 @@ from recorded import as_counts, as_speed
 
 from motor_identification.estimation import thinning
 from motor_identification.estimation.problem import make_problem
-from motor_identification.estimation.thinning import count_joined, make_thinned_problem, thin_out
+from motor_identification.estimation.thinning import count_joined, thin_out, thin_problem
 from motor_identification.measurement.build_intervals import make_intervals
 from motor_identification.recording import Recording, check
 from motor_model.parameters import PAPER_KA, PAPER_KV
@@ -69,7 +69,7 @@ def test_edges_with_stamps_stay_as_they_are(monkeypatch: pytest.MonkeyPatch) -> 
 @pytest.mark.parametrize("effects", [(), ("coulomb_friction",)])
 def test_only_who_asks_for_it_gets_a_thin_problem(monkeypatch: pytest.MonkeyPatch, effects: tuple[str, ...]) -> None:
     monkeypatch.setattr(thinning, "ENOUGH", 1500)
-    whole, thinned = make_problem([logged()], effects), make_thinned_problem([logged()], effects, workers=2)
+    whole, thinned = make_problem([logged()], effects), thin_problem(make_problem([logged()], effects, workers=2))
     assert len(thinned.intervals[0].first) < 0.6 * len(whole.intervals[0].first)
     assert thinned.unknowns.effects == whole.unknowns.effects == effects
     assert (thinned.workers, whole.workers) == (2, 1)

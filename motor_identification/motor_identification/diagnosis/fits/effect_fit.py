@@ -49,7 +49,7 @@ def fit_with_effect(
         return periodic if errors is None or periodic is None else fit_beside_torque(periodic, errors)
     larger = estimate.problem.adding(effect)
     quick, bare = larger.coarsen(QUICK_SAMPLES), estimate.problem.coarsen(QUICK_SAMPLES)
-    look = _make_target(estimate.on(bare), errors)
+    look = make_target(estimate.on(bare), errors)
     best, start, spent = np.inf, estimate.theta, estimate.simulations
     starts = [one.theta for one in list_starts(estimate, larger)]
     for begin in (*starts, *_list_jumps(estimate, larger, effect, errors)):
@@ -61,7 +61,7 @@ def fit_with_effect(
     start, best = _improve_instants(replace(look, problem=quick), effect, start, best)
     if not promises_gain(_sum_squares(look, estimate.theta), best, len(bare.weight), errors is not None):
         return None
-    target = replace(_make_target(estimate, errors), problem=larger)
+    target = replace(make_target(estimate, errors), problem=larger)
     how = (ITERATIONS, TOLERANCE) if errors is None else (DISTURBED_ITERATIONS, DISTURBED_TOLERANCE)
     return fit_residuals(Estimate(larger, start, spent), target, np.inf, *how)
 
@@ -120,7 +120,7 @@ def _improve_instants(
     return theta, least
 
 
-def _make_target(estimate: Estimate, errors: ErrorModel | None) -> SpeedResiduals | DisturbedResiduals:
+def make_target(estimate: Estimate, errors: ErrorModel | None) -> SpeedResiduals | DisturbedResiduals:
     """Make what is minimised: mean speeds as they are, or whitened beside a random torque."""
     return SpeedResiduals(estimate.problem) if errors is None else make_disturbed_residuals(estimate, errors)
 
