@@ -43,12 +43,12 @@ class Track:
     def fill_in(self, whole: "Track") -> "Track":
         """Fill in what another track of the same recording measured where this one knows nothing; this one stays.
 
-        From an instant that this one knows on, the other's travel is added to its angle.
+        The other's travel is added to its angle from an instant that this one knows on; what that is off by at the next
+        such instant is spread over the time between, as the closing error of a traverse: in one interval it is a jump.
         """
         known = np.isin(whole.time, self.time)
         before = np.maximum(np.searchsorted(self.time, whole.time, side="right") - 1, 0)
-        off = self.angle - whole.at(self.time)
-        angle = whole.angle + off[before]
+        angle = whole.angle + np.interp(whole.time, self.time, self.angle - whole.at(self.time))
         time = np.concatenate([self.time, whole.time[~known]])
         order = np.argsort(time, kind="stable")
         run = np.concatenate([self.run, self.run[before[~known]]])

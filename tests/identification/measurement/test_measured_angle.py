@@ -86,10 +86,10 @@ def test_from_one_rows_speed_to_the_next_rows_the_shaft_turns_by_their_mean(rows
 
 
 def test_a_track_is_filled_in_from_where_it_ends() -> None:
-    """What another one measured in between is added to what it knows; its own angles stay."""
+    """What another one measured in between is added to what it knows; its own angles stay, and nothing jumps."""
     own = Track(np.array([0.0, 1.0, 5.0, 6.0]), np.array([0.0, 1.0, 7.0, 8.0]), np.array([0, 0, 1, 1]))
     whole = Track(np.arange(8.0), np.array([0.0, 1.0, 2.0, 2.5, 3.0, 5.0, 6.0, 6.5]), np.zeros(8, dtype=np.int64))
     filled = own.fill_in(whole)
     assert filled.time.tolist() == whole.time.tolist()
-    assert filled.angle == pytest.approx([0.0, 1.0, 2.0, 2.5, 3.0, 7.0, 8.0, 8.5])
+    assert filled.angle == pytest.approx([0.0, 1.0, 2.5, 3.5, 4.5, 7.0, 8.0, 8.5])
     assert filled.run.tolist() == [0, 0, 0, 0, 0, 1, 1, 1]
