@@ -7,6 +7,7 @@ from math import log
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model, find_lasting_interval
 from motor_identification.diagnosis.evidence.calm_evidence import explains_calm
+from motor_identification.diagnosis.evidence.change_evidence import explains_changes
 from motor_identification.diagnosis.evidence.standstill_evidence import was_held
 from motor_identification.diagnosis.evidence.torque_evidence import measure_speaking, measure_steadiness
 from motor_identification.validation.held_out import HeldOut
@@ -88,6 +89,15 @@ class CandidateTest:
         return self.evidence > least and (not self.model.beside_torque or self.steadiness > least or self.predicts)
 
     @property
+    def is_held_back(self) -> bool:
+        """Whether it is no likelier, but leaves less, beside the torque that the model without it needs.
+
+        That is of what is missing, too: as slow and large as it is, it pays for the half of an effect.
+        """
+        near = self.evidence > -thresholds.HELD_BACK
+        return near and self.model.held.gap < thresholds.HELD_BACK_GAP * self.held_before.gap
+
+    @property
     def predicts(self) -> bool:
         """Whether much of the gap goes; of what is at an instant, or repeats, a fit to a slow torque does, too."""
         effect = EFFECT_BY_NAME[self.effect]
@@ -106,7 +116,7 @@ class CandidateTest:
         before, after = self._join_lasting()
         floor = after.floor(self.model.noise.share)
         if before.gap < (thresholds.SEEN_GAP if before.seen else thresholds.RELEVANT_GAP) * floor:
-            return False
+            return self.effect in LAGS and explains_changes(self.before, self.model)
         near_floor = thresholds.NEAR_FLOOR_SEEN if before.seen else thresholds.NEAR_FLOOR
         near = before.gap < near_floor * floor or self.has_instants
         least = thresholds.RELEVANT_SHARE_NEAR_FLOOR if near else thresholds.RELEVANT_SHARE

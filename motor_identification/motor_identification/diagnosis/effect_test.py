@@ -9,7 +9,12 @@ from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import refine_beside_torque, split_kv, validate_model
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
-from motor_identification.diagnosis.evidence.line_evidence import count_waves, drop_chance_harmonics, is_heavy_load
+from motor_identification.diagnosis.evidence.line_evidence import (
+    drop_chance_harmonics,
+    drop_few_turns,
+    has_waves,
+    is_heavy_load,
+)
 from motor_identification.diagnosis.fits.effect_fit import fit_with_effect
 from motor_identification.measurement.command_swing import is_sweep
 from motor_identification.validation.held_out import HeldOut
@@ -85,9 +90,19 @@ def _try_effect(current: Model, hold_out: HoldOut, effect: str, least: float) ->
             effect, validate_model(own, current.estimate, current), validate_model(own, larger, current)
         )
     test = CandidateTest(effect, current, validate_model(hold_out, larger, current))
-    if current.beside_torque and test.evidence > 0.0:
-        test = replace(test, model=refine_beside_torque(test.model, hold_out))
+    if current.beside_torque and (test.evidence > 0.0 or test.is_held_back):
+        test = replace(test, model=_refine(test.model, hold_out))
     return replace(test, model=split_kv(test.model, hold_out)) if EFFECT_BY_NAME[effect].splits_kv else test
+
+
+def _refine(model: Model, hold_out: HoldOut) -> Model:
+    """Refine a model beside the torque that it leaves, and as long as it leaves less of one and is likelier for it."""
+    for _ in range(thresholds.REFINEMENTS):
+        refined = refine_beside_torque(model, hold_out)
+        gained, model = refined.likelihood - model.likelihood, refined
+        if gained < thresholds.TIE_LIKELIHOOD:
+            break
+    return model
 
 
 def choose_finding(tests: Sequence[CandidateTest]) -> CandidateTest | None:
@@ -96,7 +111,7 @@ def choose_finding(tests: Sequence[CandidateTest]) -> CandidateTest | None:
     Of what held-out data hardly tell apart, all data choose: there are several times as many. What needs an instant, or
     one for every recording, has to be more likely than what needs none.
     """
-    tests = drop_chance_harmonics(tests)
+    tests = drop_few_turns(drop_chance_harmonics(tests))
     findings = _drop_what_predicts_worse([test for test in tests if _is_finding(test)])
     if not findings:
         return None
@@ -135,7 +150,7 @@ def _choose_first(findings: Sequence[CandidateTest]) -> CandidateTest:
 
 
 def _is_finding(test: CandidateTest) -> bool:
-    comes_back = count_waves(test.model, test.effect) > thresholds.LEAST_WAVES or is_heavy_load(test.model, test.effect)
+    comes_back = has_waves(test) or is_heavy_load(test.model, test.effect)
     return is_supported(test) and test.relevant and comes_back and not is_there_from_the_start(test)
 
 

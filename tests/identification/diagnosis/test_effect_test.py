@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import cache
+from typing import cast
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from stub_models import rescored, stub_model, stub_test
 
 from motor_identification.diagnosis import effect_test, thresholds
 from motor_identification.diagnosis.candidate_fit import validate_model
+from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.effect_test import (
     choose_finding,
@@ -21,7 +23,10 @@ from motor_identification.diagnosis.effect_test import (
 )
 from motor_identification.diagnosis.evidence.likeness import find_rivals
 from motor_identification.diagnosis.evidence.line_evidence import adds_only_lines, count_waves
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.noise.error_model import ErrorModel
 from motor_identification.recording import Floats, Recording
+from motor_identification.validation.hold_out import HoldOut
 from motor_model.effects import EFFECTS
 
 
@@ -208,8 +213,24 @@ def test_a_line_comes_back_a_few_times(waves: float, found: bool) -> None:
     assert (choose_finding([replace(test, model=few)]) is not None) is found
     disc = tried("encoder_eccentricity", eccentricity=0.05, eccentricity_phase=0.5)
     assert choose_finding([disc]) is disc and count_waves(disc.model, "encoder_eccentricity") == disc.model.turns
-    within = replace(disc.model)  # a third of a turn, to and fro, is no disc that comes back
-    within.__dict__["turns"] = waves * thresholds.LEAST_WAVES
+
+
+@pytest.mark.parametrize(
+    ("turns", "limit", "explains", "found"),
+    [
+        (0.9, "LEAST_TURNS", 1.01, False),  # a third of a turn, to and fro, is no disc that comes back
+        (1.1, "LEAST_TURNS", 1.01, True),
+        (0.9, "LEAST_WAVES", 0.99, False),
+        (1.1, "LEAST_WAVES", 0.99, True),
+    ],
+)
+def test_a_disc_of_few_turns_takes_away_most_of_what_is_left(
+    monkeypatch: pytest.MonkeyPatch, turns: float, limit: str, explains: float, found: bool
+) -> None:
+    disc = tried("encoder_eccentricity", eccentricity=0.05, eccentricity_phase=0.5)
+    monkeypatch.setattr(thresholds, "MOST_OF_GAP", disc.explains / explains)
+    within = replace(disc.model)
+    within.__dict__["turns"] = turns * getattr(thresholds, limit)
     assert (choose_finding([replace(disc, model=within)]) is not None) is found
 
 
@@ -223,3 +244,34 @@ def test_lines_of_many_waves_are_their_own_evidence(waves: float, alone: bool) -
     assert not adds_only_lines(line, line)  # what adds nothing adds no line
     friction = tried("coulomb_friction", ks=0.5)
     assert not adds_only_lines(friction.model, friction.before)
+
+
+@pytest.mark.parametrize(
+    ("evidence", "gap", "gains", "fits"),
+    [
+        (0.1, 5.0, [9.0, 9.0, 9.0, 9.0], thresholds.REFINEMENTS),
+        (0.1, 5.0, [1.01 * thresholds.TIE_LIKELIHOOD, 0.99 * thresholds.TIE_LIKELIHOOD, 9.0], 2),
+        (-0.99 * thresholds.HELD_BACK, 0.99 * thresholds.HELD_BACK_GAP * 5.0, [0.0], 1),
+        (-0.99 * thresholds.HELD_BACK, 1.01 * thresholds.HELD_BACK_GAP * 5.0, [0.0], 0),
+        (-1.01 * thresholds.HELD_BACK, 0.99 * thresholds.HELD_BACK_GAP * 5.0, [0.0], 0),
+    ],
+)
+def test_a_candidate_is_fitted_beside_the_torque_that_it_leaves_as_long_as_that_helps(
+    monkeypatch: pytest.MonkeyPatch, evidence: float, gap: float, gains: list[float], fits: int
+) -> None:
+    """Beside the torque that a model without an asymmetry leaves, half of it is the likeliest."""
+    before = replace(stub_model(5.0), learned=ErrorModel(0.0, 0.0, 1.0, 1.0))
+    candidate = stub_test("direction_asymmetry", before, gap, evidence).model
+    fitted_again: list[Model] = []
+
+    def refine(model: Model, hold_out: object) -> Model:
+        fitted_again.append(model)
+        return rescored(model, likelihood=model.likelihood + gains[len(fitted_again) - 1])
+
+    monkeypatch.setattr(effect_test, "fit_with_effect", lambda *rest: object())
+    monkeypatch.setattr(effect_test, "validate_model", lambda *rest: candidate)
+    monkeypatch.setattr(effect_test, "refine_beside_torque", refine)
+    whole = replace(before, estimate=cast(Estimate, object()))
+    (test,) = try_effects(whole, cast(HoldOut, object()), ["direction_asymmetry"], 1, lambda test: None)
+    assert len(fitted_again) == fits
+    assert test.evidence == pytest.approx(evidence + sum(gains[:fits]))

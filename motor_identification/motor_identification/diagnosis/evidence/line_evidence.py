@@ -25,6 +25,31 @@ def count_waves(model: Model, effect: str) -> float:
     return inf if cycles is None else cycles * model.turns * _find_share_seen(model, cycles)
 
 
+def has_waves(test: CandidateTest) -> bool:
+    """Decide whether a test's effect comes back over the angle as often as it must, if it repeats at all.
+
+    What is on the disc moves no motor: it is in step with the angle at once, where a torque lags behind. So one turn
+    is enough where it takes away most of what is left.
+    """
+    waves = count_waves(test.model, test.effect)
+    if waves > thresholds.LEAST_WAVES:
+        return True
+    disc = EFFECT_BY_NAME[test.effect].on_disc
+    return disc and waves > thresholds.LEAST_TURNS and test.explains > thresholds.MOST_OF_GAP
+
+
+def drop_few_turns(tests: Sequence[CandidateTest]) -> list[CandidateTest]:
+    """Drop what is on a disc of few turns, where a torque that goes with the angle is about as likely."""
+    lines = [test for test in tests if EFFECT_BY_NAME[test.effect].periodic and not EFFECT_BY_NAME[test.effect].on_disc]
+    most = max((test.evidence for test in lines), default=-inf) + thresholds.RIVAL_MARGIN
+    return [test for test in tests if test.evidence > most or not _has_few_turns(test)]
+
+
+def _has_few_turns(test: CandidateTest) -> bool:
+    few = count_waves(test.model, test.effect) <= thresholds.LEAST_WAVES
+    return EFFECT_BY_NAME[test.effect].on_disc and few
+
+
 def _find_share_seen(model: Model, cycles: float) -> float:
     """Find the share of the travel in which an interval is at most half a wave of so many cycles a turn."""
     travels = [data.gear * data.travel for data in model.estimate.problem.intervals]

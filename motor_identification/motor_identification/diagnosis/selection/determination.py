@@ -5,7 +5,7 @@ from math import isfinite, isnan
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
-from motor_identification.diagnosis.candidate_test import likelihood_threshold, predicts_far_worse
+from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold, predicts_far_worse
 from motor_identification.diagnosis.effect_test import sort_by_table, try_effects
 from motor_identification.diagnosis.evidence.line_evidence import is_no_ripple
 from motor_identification.diagnosis.selection.backward_elimination import drop_step, eliminate_backward
@@ -36,7 +36,7 @@ def drop_undetermined(selection: Selection, reporter: ProgressReporter) -> tuple
         if rival is not None:
             selection = rival
             continue
-        if is_needed(step, selection.model, smaller.model):
+        if is_needed(step, selection.model, smaller.model) or is_steady_beside_torque(step, selection, smaller):
             continue
         gone |= {step.found.effect, *step.rivals}
         if not (smaller.model.complete and is_chance(step.found.effect, selection.model)):
@@ -91,6 +91,22 @@ def is_needed(step: SelectionStep, model: Model, without: Model) -> bool:
         step.rivals or any(spec.name in find_limits_hit(model) for spec in effect.parameters)
     )
     return told and without.held.gap > thresholds.WORSE_GAP * model.held.gap
+
+
+def is_steady_beside_torque(step: SelectionStep, selection: Selection, without: Selection) -> bool:
+    """Decide whether a size that by its standard error is chance is told by what knows of a random torque, or gains.
+
+    The motion speaks for it all the time: by far, or with a size of some standard errors beside a torque that is all
+    that is left. Of an effect that bends what others do a standard error says little: a share of 1.00 ± 0.33.
+    """
+    effect, model = step.found.effect, selection.model
+    if step.rivals or EFFECT_BY_NAME[effect].periodic or needs_instant(effect) or not is_chance_size(effect, model):
+        return False
+    if not model.beside_torque:
+        return False
+    steadiness = CandidateTest(effect, without.model, model).steadiness
+    told = count_errors_beside_torque(effect, model) > thresholds.STEADY_BESIDE_TORQUE
+    return steadiness > (likelihood_threshold() if told else thresholds.STEADY_LIKELIHOOD)
 
 
 def _replace_by_rival(selection: Selection, step: SelectionStep, without: Model) -> Selection | None:
@@ -152,16 +168,19 @@ def is_chance_size(effect: str, model: Model) -> bool:
     error = model.uncertainty.errors[at]
     # A line's cycles are always determined.
     chance = bool(abs(fit.theta[at] - specs[0].off) < sure * error or (line and isnan(error)))
-    return chance and (line or not _is_sure_beside_torque(effect, model))
+    return chance and (line or not count_errors_beside_torque(effect, model) > thresholds.SURE_BESIDE_TORQUE)
 
 
-def _is_sure_beside_torque(effect: str, model: Model) -> bool:
-    """Decide whether an effect has a size beyond chance by what knows of the random torque that is all that is left."""
+def count_errors_beside_torque(effect: str, model: Model) -> float:
+    """Count the standard errors that an effect's size is beyond none, by what knows of the random torque.
+
+    0 where more is left than a torque.
+    """
     if model.told_beside_torque is None:
-        return False
+        return 0.0
     (fit, uncertainty), spec = model.told_beside_torque, EFFECT_BY_NAME[effect].parameters[0]
     at = fit.problem.unknowns.names.index(spec.name)
-    return bool(abs(fit.theta[at] - spec.off) > thresholds.SURE_BESIDE_TORQUE * uncertainty.errors[at])
+    return float(abs(fit.theta[at] - spec.off) / uncertainty.errors[at])
 
 
 def _find_unknown(model: Model) -> tuple[str, ...]:

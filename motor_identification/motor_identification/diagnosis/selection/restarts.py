@@ -15,11 +15,11 @@ from motor_identification.validation.instants import needs_instant
 def retry_with_another_first(selection: Selection, reporter: ProgressReporter) -> Selection:
     """Select forward again from another first effect that was nearly as likely, where the gap stays above the floor.
 
-    Or where a complete model took many findings: fewer may do as well; or is one beside a torque that is so slow that a
-    wrong static curve is one, too. While others are missing too, one effect can do as well as another, and the wrong
+    Or where a complete model took many findings: fewer may do as well; or leaves what a wrong static curve does, too.
+    While others are missing too, one effect can do as well as another, and the wrong
     one ends in a local minimum of the selection, or with more than are there.
     """
-    settled = selection.model.complete and not _is_beside_slow_torque(selection.model)
+    settled = selection.model.complete and not _may_lack_more(selection.model)
     if not selection.steps or (settled and len(selection.steps) < thresholds.MANY_STEPS):
         return selection
     first = selection.steps[0]
@@ -67,18 +67,26 @@ def retry_with_pair(selection: Selection, reporter: ProgressReporter) -> Selecti
     return other if better else selection
 
 
-def _is_beside_slow_torque(model: Model) -> bool:
-    """Decide whether what a model leaves is said to be a torque that the motor is at rest with nearly all the time.
+def _may_lack_more(model: Model) -> bool:
+    """Decide whether what a complete model leaves may be of a wrong static curve.
 
-    So is what a wrong static curve leaves of a staircase, whose levels the fit has seen.
+    It is said to be a torque that the motor is at rest with nearly all the time, as what is left of a staircase whose
+    levels the fit has seen; or a coarse sensor hides it from row to row.
     """
-    return model.above_floor and model.errors.correlation_time * model.lag.rate > thresholds.SLOW_TORQUE
+    slow = model.errors.correlation_time * model.lag.rate > thresholds.SLOW_TORQUE
+    return slow if model.above_floor else model.lasts
 
 
 def _leaves_less(other: Selection, selection: Selection) -> bool:
     """Decide whether another selection is likelier, and leaves so little that what chance leaves is no question."""
     likelier = other.model.likelihood > selection.model.likelihood
-    return likelier and other.model.held.gap < thresholds.HALVED_GAP * selection.model.held.gap
+    left, least = (_find_seen_gap(one.model, selection.model.above_floor) for one in (other, selection))
+    return likelier and left < thresholds.HALVED_GAP * least
+
+
+def _find_seen_gap(model: Model, above_floor: bool) -> float:
+    """Find the gap [rad/s] that is seen: of what lasts, where a coarse sensor hides it from row to row."""
+    return model.held.gap if above_floor else model.lasting.gap
 
 
 def _is_simpler(other: Selection, many: Selection) -> bool:

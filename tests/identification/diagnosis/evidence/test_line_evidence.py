@@ -7,7 +7,7 @@ from typing import cast
 
 import numpy as np
 import pytest
-from stub_models import stub_model, stub_test
+from stub_models import stub_model, stub_test, with_effects
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
@@ -15,6 +15,7 @@ from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.evidence.line_evidence import (
     count_waves,
     drop_chance_harmonics,
+    drop_few_turns,
     is_heavy_load,
     is_no_ripple,
 )
@@ -98,3 +99,23 @@ def test_what_is_larger_than_ripples_are_is_a_load_once_a_turn_or_nothing(
     model = replace(stub_model(5.0), estimate=cast(Estimate, estimate))
     assert is_heavy_load(model, "torque_ripple") is heavy and is_no_ripple(model, "torque_ripple") is no_ripple
     assert not is_heavy_load(model, "coulomb_friction") and not is_no_ripple(model, "coulomb_friction")
+
+
+@pytest.mark.parametrize(
+    ("turns", "lead", "stays"),
+    [
+        (0.99, 1.01, True),
+        (0.99, 0.99, False),  # a torque that goes with the angle is about as likely
+        (1.01, -9.0, True),
+    ],
+)
+def test_of_few_turns_a_disc_is_likelier_than_a_torque_that_goes_with_the_angle(
+    turns: float, lead: float, stays: bool
+) -> None:
+    before = stub_model(5.0)
+    ripple = stub_test("torque_ripple", before, 1.0, 100.0)
+    disc = stub_test("encoder_eccentricity", before, 1.0, 100.0 + lead * thresholds.RIVAL_MARGIN)
+    disc = replace(disc, model=with_effects(disc.model, "encoder_eccentricity"))
+    disc.model.__dict__["turns"] = turns * thresholds.LEAST_WAVES
+    assert (disc in drop_few_turns([disc, ripple])) is stays and ripple in drop_few_turns([disc, ripple])
+    assert drop_few_turns([disc]) == [disc]

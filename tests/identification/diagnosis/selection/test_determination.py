@@ -14,7 +14,7 @@ from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis import candidate_model, thresholds
 from motor_identification.diagnosis.candidate_fit import validate_model
 from motor_identification.diagnosis.candidate_model import Model
-from motor_identification.diagnosis.candidate_test import CandidateTest
+from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.result import Verdict
 from motor_identification.diagnosis.selection import determination
 from motor_identification.diagnosis.selection.determination import (
@@ -25,6 +25,7 @@ from motor_identification.diagnosis.selection.determination import (
     has_vague_instant,
     is_chance_size,
     is_needed,
+    is_steady_beside_torque,
     is_undetermined,
 )
 from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
@@ -110,6 +111,45 @@ def test_what_a_fit_beside_the_torque_is_sure_of_is_no_chance(sigma: float | Non
     told = None if sigma is None else (model.whitened, known(size / (sigma * thresholds.SURE_BESIDE_TORQUE)))
     stub = SimpleNamespace(whitened=model.whitened, held=model.held, uncertainty=known(size), told_beside_torque=told)
     assert is_chance_size("coulomb_friction", cast(Model, stub)) is chance
+
+
+@pytest.mark.parametrize(
+    ("sigma", "steadiness", "effect", "rivals", "told"),
+    [
+        (1.01, 1.01 * likelihood_threshold(), "coulomb_friction", (), True),
+        (0.99, 1.01 * likelihood_threshold(), "coulomb_friction", (), False),
+        (1.01, 0.99 * likelihood_threshold(), "coulomb_friction", (), False),  # a few moments speak for it
+        (1.01, 1.01 * likelihood_threshold(), "coulomb_friction", ("dead_zone",), False),
+        (1.01, 1.01 * likelihood_threshold(), "torque_ripple", (), False),
+        (1.01, 1.01 * likelihood_threshold(), "load_step", (), False),
+        (None, 1.01 * likelihood_threshold(), "coulomb_friction", (), False),  # more than a torque is left
+        (None, 1.01 * thresholds.STEADY_LIKELIHOOD, "coast_drive", (), True),
+        (None, 0.99 * thresholds.STEADY_LIKELIHOOD, "coast_drive", (), False),
+    ],
+)
+def test_what_the_motion_speaks_for_all_the_time_is_told_beside_a_torque(
+    monkeypatch: pytest.MonkeyPatch,
+    sigma: float | None,
+    steadiness: float,
+    effect: str,
+    rivals: tuple[str, ...],
+    told: bool,
+) -> None:
+    """By its standard error it may have its size by chance."""
+    own = EFFECT_BY_NAME[effect].parameters[0]
+    problem = SimpleNamespace(unknowns=SimpleNamespace(names=(own.name,)))
+    fit, limit = SimpleNamespace(problem=problem, theta=np.array([own.off + 0.3])), thresholds.STEADY_BESIDE_TORQUE
+    beside = None if sigma is None else (fit, known(0.3 / (sigma * limit)))
+    model = SimpleNamespace(told_beside_torque=beside, beside_torque=True)
+    monkeypatch.setattr(determination, "is_chance_size", lambda *_: True)
+    monkeypatch.setattr(CandidateTest, "steadiness", steadiness)
+    step = cast(SelectionStep, SimpleNamespace(found=SimpleNamespace(effect=effect), rivals=rivals))
+    selection = cast(Selection, SimpleNamespace(model=model))
+    assert is_steady_beside_torque(step, selection, selection) is told
+    alone = cast(Selection, SimpleNamespace(model=SimpleNamespace(told_beside_torque=beside, beside_torque=False)))
+    assert not is_steady_beside_torque(step, alone, alone)
+    monkeypatch.setattr(determination, "is_chance_size", lambda *_: False)
+    assert not is_steady_beside_torque(step, selection, selection)
 
 
 def known(error: float) -> Any:

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from stub_models import StubModel, rescored, stub_model, stub_test
+from stub_models import LASTING_FLOOR, StubModel, rescored, stub_model, stub_test
 from stub_selections import selection_of, step_of
 
 from motor_identification.diagnosis import thresholds
@@ -130,6 +130,31 @@ def test_a_static_curve_that_a_slow_torque_makes_complete_is_doubted(
     monkeypatch.setattr(module, "begin_selection", lambda *rest: begun)
     monkeypatch.setattr(module, "select_forward", lambda *rest, **how: pair)
     assert begun.model.complete
+    assert (retry_with_another_first(begun, SILENT) is pair) is taken
+
+
+@pytest.mark.parametrize(
+    ("lasting", "left", "likelier", "taken"),
+    [
+        (1.01, 0.49, 1.0, True),
+        (1.01, 0.51, 1.0, False),
+        (1.01, 0.49, -1.0, False),
+        (0.99, 0.49, 1.0, False),  # nothing lasts
+    ],
+)
+def test_what_a_coarse_sensor_hides_from_row_to_row_is_doubted_where_it_lasts(
+    monkeypatch: pytest.MonkeyPatch, lasting: float, left: float, likelier: float, taken: bool
+) -> None:
+    """A dead zone in the place of a friction and a warming-up: of 24 slots at 500 rows a second."""
+    before, gap = stub_model(5.0), 1.29
+    least = lasting * thresholds.LASTING_GAP * LASTING_FLOOR
+    first, other = stub_test("dead_zone", before, gap, 100.0), stub_test("coulomb_friction", before, gap, 90.0)
+    begun = selection_of(stub_model(gap, least), step_of(first, other))
+    model = stub_model(gap, left * least, begun.model.likelihood + likelier)
+    pair = replace(begun, steps=(step_of(other), step_of(first)), model=model)
+    monkeypatch.setattr(module, "begin_selection", lambda *rest: begun)
+    monkeypatch.setattr(module, "select_forward", lambda *rest, **how: pair)
+    assert begun.model.complete and begun.model.at_floor
     assert (retry_with_another_first(begun, SILENT) is pair) is taken
 
 
