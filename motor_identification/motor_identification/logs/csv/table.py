@@ -1,7 +1,7 @@
 """A table as columns of numbers, with the line of every complaint."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from decimal import Decimal, InvalidOperation
 from pathlib import Path
 from typing import Any
@@ -28,6 +28,7 @@ class Table:
     cells: Mapping[str, Cells]  # by column
     decimal_comma: bool = False  # 0,5 is a number
     notes: tuple[str, ...] = ()  # what had to be assumed to read it
+    _known: dict[str, NDArray[np.float64]] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def __len__(self) -> int:
         return len(self.lines)
@@ -53,11 +54,18 @@ class Table:
         return self.cells[column]
 
     def numbers(self, column: str) -> NDArray[np.float64]:
-        """The column as finite numbers, shape (K,).
+        """The column as finite numbers, shape (K,), not to be written to: they are read once.
 
         Raises:
             RecordingError: a cell is not a finite number.
         """
+        if column not in self._known:
+            values = self._read_numbers(column).view()
+            values.flags.writeable = False
+            self._known[column] = values
+        return self._known[column]
+
+    def _read_numbers(self, column: str) -> NDArray[np.float64]:
         cells = self.column(column)
         try:
             values = self._floats(cells)

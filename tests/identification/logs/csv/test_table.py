@@ -45,3 +45,16 @@ def test_numbers_and_what_is_none() -> None:
             table("0", cell).numbers("t")
     with pytest.raises(RecordingError, match="has no column y: name one of t"):
         table("0").numbers("y")
+
+
+def test_a_column_is_converted_once_and_cannot_be_written_to() -> None:
+    made = table("1", "2", "3")
+    first = made.numbers("t")
+    assert made.numbers("t") is first
+    with pytest.raises(ValueError, match="read-only"):
+        first[0] = 5.0
+    fewer = made.rows(np.array([True, False, True]), "a note")
+    assert fewer.numbers("t").tolist() == [1.0, 3.0]
+    floats = np.array([0.5, 0.25])
+    assert Table(Path("log.csv"), (2, 3), {"t": floats}).numbers("t").tolist() == [0.5, 0.25]
+    floats[0] = 1.0  # whose array it is may still write to it
