@@ -14,6 +14,7 @@ from motor_identification.logs.motion import Motion, read_motion
 from motor_identification.logs.rows.absurd_speeds import drop_absurd_beginnings
 from motor_identification.logs.rows.drive.coded_rows import drop_coded_rows
 from motor_identification.logs.rows.drive.logged_levels import split_between_levels
+from motor_identification.logs.rows.drive.unpowered_end import drop_unpowered_end
 from motor_identification.logs.rows.drive.unpowered_start import drop_unpowered_start
 from motor_identification.logs.rows.even_clock import restore_even_clock
 from motor_identification.logs.rows.parts import (
@@ -102,10 +103,11 @@ def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log
     signals, divided = divide_by_regular_rows(stamped, signals) if form.kind is Kind.SPEED else (signals, [])
     signals, first = drop_first_rows(signals)
     signals, unpowered = drop_unpowered_start(signals, form)
+    signals, off = drop_unpowered_end(signals, form)
     signals, absurd = drop_absurd_beginnings(signals) if form.kind is Kind.SPEED else (signals, [])
     signals, gaps = split_at_gaps(signals)
     signals, clock = restore_even_clock(signals, form.even_clock, form.kind is Kind.SPEED)
-    said += [*full, *stray, *restarts, *levels, *stamps, *divided, *first, *unpowered, *absurd, *gaps, *clock]
+    said += [*full, *stray, *restarts, *levels, *stamps, *divided, *first, *unpowered, *off, *absurd, *gaps, *clock]
     check_rest(signals, table, form)
     check_steps(signals)
     info = replace(info, sample_period=float(np.median(signals.steps())) * 1e-9)

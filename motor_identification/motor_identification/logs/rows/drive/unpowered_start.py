@@ -19,9 +19,9 @@ def drop_unpowered_start(signals: Signals, form: CsvForm) -> tuple[Signals, list
     """Leave out the first rows of runs in which the motor stands at voltages at half of which it runs later."""
     keep, said = np.ones(len(signals), np.bool_), []
     for run in signals.runs.values():
-        volts, moves = np.abs(signals.voltage[run]), _mark_motion(signals.motion[run], form.kind)
+        volts, moves = np.abs(signals.voltage[run]), mark_motion(signals.motion[run], form.kind)
         still = int(np.argmax(moves)) if moves.any() else 0
-        stood = _find_standing_voltage(volts[:still])
+        stood = find_standing_voltage(volts[:still])
         little = (volts[still:] > 0.0) & (volts[still:] <= HALF * stood)
         if np.count_nonzero(little) < ROWS or np.mean(moves[still:][little]) < MOSTLY:
             continue
@@ -49,7 +49,7 @@ def _is_as_late_later(voltage: Floats, motion: Floats, kind: Kind, still: int) -
     return bool(lags[best] >= LATE * rows and missing[0] > TWICE * missing[best])
 
 
-def _find_standing_voltage(volts: Floats) -> float:
+def find_standing_voltage(volts: Floats) -> float:
     """The voltage [V] that was there in so many rows of a standstill, shape (S,), and changed; 0 where it was not."""
     driven = volts[np.cumsum(volts) > 0.0]
     if np.count_nonzero(driven) < ROWS or np.count_nonzero(np.diff(driven)) < FEWEST_CHANGES:
@@ -57,7 +57,7 @@ def _find_standing_voltage(volts: Floats) -> float:
     return float(np.sort(driven)[-ROWS])
 
 
-def _mark_motion(motion: Floats, kind: Kind) -> Bools:
+def mark_motion(motion: Floats, kind: Kind) -> Bools:
     """Mark the rows (K,) in which a motor moves: of counts, those that differ from the ones some rows away."""
     if kind is Kind.SPEED:
         return np.asarray(motion != 0.0)

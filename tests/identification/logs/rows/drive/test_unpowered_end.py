@@ -1,0 +1,66 @@
+"""What was logged after a motor had lost its supply is left out, and no standstill that is its friction's."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from motor_identification.logs.form import CsvForm, Kind
+from motor_identification.logs.rows.drive.unpowered_end import drop_unpowered_end
+from motor_identification.logs.rows.drive.unpowered_start import FEWEST_CHANGES, ROWS
+from motor_identification.logs.signals import Floats, Signals
+
+LEVELS = np.tile([2.0, 5.0, 1.0, 4.0], 30)  # V, for ten rows each
+SPEED = CsvForm("t", "u", "y", Kind.SPEED, "rad/s")
+
+
+def logged(volts: Floats, speed: Floats) -> Signals:
+    count = len(volts)
+    unknown, time = np.full(count, np.nan), np.arange(count) * 10_000_000
+    return Signals(Path("log.csv"), np.arange(count), time, volts, speed, unknown, unknown, {"": slice(0, count)})
+
+
+def tripped(ran: int, volts: Floats) -> Signals:
+    """A motor that follows its voltage up to a row."""
+    return logged(volts, np.where(np.arange(len(volts)) < ran, 10.0 * volts, 0.0))
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("kind", [Kind.SPEED, Kind.COUNT])
+def test_rows_after_the_supply_was_off_are_left_out(kind: Kind, sign: float) -> None:
+    signals = tripped(900, sign * np.repeat(LEVELS, 10))
+    motion = signals.motion if kind is Kind.SPEED else np.floor(np.cumsum(signals.motion) / 25.0)
+    found, said = drop_unpowered_end(replace(signals, motion=motion), replace(SPEED, kind=kind))
+    assert 900 <= len(found) <= 901 and found.voltage[0] == signals.voltage[0]
+    assert "rows, in which y stands at up to 5 V and before which it ran at 2.5 V and less" in said[0]
+
+
+def test_every_run_has_its_own_end() -> None:
+    signals = tripped(900, np.repeat(LEVELS, 10))
+    both = replace(signals, runs={"a": slice(0, 600), "b": slice(600, 1200)})
+    found, said = drop_unpowered_end(both, SPEED)
+    assert found.runs["a"] == slice(0, 600) and 900 <= found.runs["b"].stop <= 901 and len(said) == 1
+
+
+@pytest.mark.parametrize(
+    ("ran", "volts"),
+    [
+        (1200 - 10 * FEWEST_CHANGES, np.repeat(LEVELS, 10)),  # it stands for two changes
+        (1000, np.repeat(np.where(np.arange(120) < 100, LEVELS, 0.0), 10)),  # nothing drives it
+        (1000, np.linspace(5.0, 0.0, 1200)),  # a ramp down, which it follows until its friction holds it
+        (1000, np.repeat(np.where(np.arange(120) < 100, 2.0 + LEVELS, 0.3 * LEVELS), 10)),  # at more voltage before
+        (240 - ROWS + 1, np.repeat(LEVELS, 2)),
+    ],
+)
+def test_an_early_rest_is_the_motors(ran: int, volts: Floats) -> None:
+    signals = tripped(ran, volts)
+    found, said = drop_unpowered_end(signals, SPEED)
+    assert len(found) == len(signals) and said == []
+
+
+def test_a_motor_that_stood_at_little_voltage_before_has_friction() -> None:
+    volts = np.repeat(LEVELS, 10)
+    speed = np.where((np.arange(1200) > 900) | (volts < 3.0), 0.0, 10.0 * volts)
+    assert drop_unpowered_end(logged(volts, speed), SPEED)[1] == []
+    assert drop_unpowered_end(logged(volts, np.zeros(1200)), SPEED)[1] == [], "one that never runs"
