@@ -9,11 +9,22 @@ from motor_identification.logs.columns.drive import drives
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.notes import ask_motion, lack_motion, miss_motion
 from motor_identification.logs.columns.speed_beside import is_summed_up
-from motor_identification.logs.columns.vocabulary import BODIES, FILTERED, MEASURED, MOVES, RAW, UNITS, Quantity
+from motor_identification.logs.columns.vocabulary import (
+    BODIES,
+    FILTERED,
+    MEASURED,
+    MOVES,
+    RAW,
+    UNITS,
+    Quantity,
+    words_of,
+)
 from motor_identification.logs.correlation import correlate
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.rows.drive.constant_voltage import CONSTANT
 
+ANGLES = {(word,) for word in words_of("theta θ phi φ")}
+SLIDES = {(word,) for word in words_of("x z s")}  # as a cart's place is called beside its pendulum's angle
 SAME_MOTION = 0.9995  # correlation of a motion with itself in another unit, which is rounded
 _BEST_FIRST = (Quantity.COUNT, Quantity.POSITION, Quantity.SPEED)  # what was counted is exact; a speed was computed
 
@@ -24,6 +35,7 @@ def find_motion_column(
     """Name the column of motion; a unit that was said is one of its kind, if there is one."""
     headings = _without_bodies(headings)
     told = UNITS[unit][0] if unit in UNITS else None
+    angles = [one.name for one in headings if one.quantity is Quantity.POSITION and one.words in ANGLES]
     for quantity in sorted(_BEST_FIRST, key=lambda one: one is not told):
         found = [one.name for one in headings if one.quantity is quantity and one.side == side]
         found = found or [one.name for one in headings if one.quantity is quantity]
@@ -34,6 +46,7 @@ def find_motion_column(
             found = _in_one_unit(table, _each_once(table, found))
             with_unit = [name for name in found if read_heading(name).unit]
             found = with_unit if quantity is Quantity.SPEED and len(with_unit) == 1 else found
+        found += _list_slides(table, headings) if len(found) == 1 and found[0] in angles else []
         if len(found) > 1:
             raise ask_motion(table, headings, quantity, found)
         if found:
@@ -52,6 +65,12 @@ def find_motion_column(
     if len(unnamed) > 1:
         raise ask_motion(table, headings, None, unnamed)
     raise lack_motion(table, time)
+
+
+def _list_slides(table: Table, headings: Sequence[Heading]) -> list[str]:
+    """The one column that a cart's place may be, beside an angle; none where several have such names, as a pose has."""
+    slides = [one.name for one in headings if one.quantity is None and one.words in SLIDES]
+    return slides if len(slides) == 1 and len(np.unique(np.diff(table.numbers(slides[0])))) > 2 else []
 
 
 def _without_bodies(headings: Sequence[Heading]) -> list[Heading]:

@@ -97,3 +97,17 @@ def test_a_pendulum_is_what_the_motor_moves() -> None:
     assert find_roles(table(t="t", u="u", **{pendulum: "n"}), Said()).pairs == (Pair("", "u", pendulum),)
     angles = table(t="t", u="u", **{"arm angle [rad]": "y", pendulum: "n"})
     assert find_roles(angles, Said()).pairs == (Pair("", "u", "arm angle [rad]"),)
+
+
+@pytest.mark.parametrize(("angle", "slide"), [("phi", "z"), ("theta", "x"), ("θ", "s")])
+def test_a_carts_place_may_be_meant_beside_an_angle(angle: str, slide: str) -> None:
+    """Of a cart with a pendulum the angle was taken, as the place has no telling name."""
+    asked = f"which column is the position\\? Say --position and one of {angle}, {slide}"
+    with pytest.raises(RecordingError, match=asked):
+        find_roles(table(t="t", v="u", **{slide: "y", angle: "n"}), Said())
+    said = find_roles(table(t="t", v="u", **{slide: "y", angle: "n"}), Said(motion=slide))
+    assert said.pairs == (Pair("", "v", slide),)
+    pose = table(t="t", v="u", x="n", z="n", **{angle: "y"})
+    assert find_roles(pose, Said()).pairs == (Pair("", "v", angle),)
+    assert find_roles(table(t="t", v="u", x="t", **{angle: "y"}), Said()).pairs == (Pair("", "v", angle),), "a clock"
+    assert find_roles(table(t="t", v="u", **{f"motor {angle}": "y", slide: "n"}), Said()).pairs[0].motion != slide
