@@ -12,20 +12,26 @@ from motor_identification.logs.rows.drive.unpowered_start import (
 )
 from motor_identification.logs.signals import Floats, Signals
 
+FEWEST = 5  # rows at rest under a voltage that did not change, so that no dead time explains them
+EXPECTED = 20  # counts in them, had the motor run on
+RUNNING = 0.75  # of the speed at that voltage: below, it was coming to a stop
+
 
 def drop_unpowered_end(signals: Signals, form: CsvForm) -> tuple[Signals, list[str]]:
     """Leave out the last rows of runs in which the motor stands at voltages at half of which it ran before."""
     keep, said = np.ones(len(signals), np.bool_), []
     for run in signals.runs.values():
-        volts, moves = np.abs(signals.voltage[run]), mark_motion(signals.motion[run], form.kind)
-        ran = _count_rows_until_rest(signals.motion[run], form.kind)
-        stood = find_standing_voltage(volts[ran:])
+        volts, motion = np.abs(signals.voltage[run]), signals.motion[run]
+        ran = _count_rows_until_rest(motion, form.kind)
+        stood, kept = find_standing_voltage(volts[ran:]), ran + 1
+        if stopped := _count_rows_until_stop(volts, motion, form.kind, ran):
+            stood, kept = float(volts[-1]), stopped
         little = (volts[:ran] > 0.0) & (volts[:ran] <= HALF * stood)
-        if np.count_nonzero(little) < ROWS or np.mean(moves[:ran][little]) < MOSTLY:
+        if np.count_nonzero(little) < ROWS or np.mean(mark_motion(motion, form.kind)[:ran][little]) < MOSTLY:
             continue
-        keep[run.start + ran + 1 : run.stop] = False
+        keep[run.start + kept : run.stop] = False
         said.append(
-            f"Left out: the last {len(moves) - ran - 1} rows, in which {form.motion} stands at up to {stood:.3g} V and "
+            f"Left out: the last {len(volts) - kept} rows, in which {form.motion} stands at up to {stood:.3g} V and "
             f"before which it ran at {HALF * stood:.3g} V and less: the motor was switched off, or held (assumed)."
         )
     return signals.only(keep), said
@@ -35,3 +41,20 @@ def _count_rows_until_rest(motion: Floats, kind: Kind) -> int:
     """How many rows there are until a motor rests for good: its speeds, shape (K,), are 0, or its counts the last."""
     moves = motion != (0.0 if kind is Kind.SPEED else motion[-1])
     return int(np.flatnonzero(moves)[-1]) + 1 if moves.any() else 0
+
+
+def _count_rows_until_stop(volts: Floats, motion: Floats, kind: Kind, ran: int) -> int:
+    """How many rows there are until a motor comes to rest though its voltage stays the same; 0 where it does not.
+
+    A robot was told to stop, and its log went on with the last duty.
+    """
+    changes = np.flatnonzero(np.diff(volts))
+    since = int(changes[-1]) + 1 if len(changes) else 0
+    if volts[-1] == 0.0 or len(volts) - ran < FEWEST or ran - since < ROWS:
+        return 0
+    speed = np.abs(motion if kind is Kind.SPEED else np.diff(motion, prepend=motion[0]))
+    level = float(np.median(speed[(since + ran) // 2 : ran]))
+    count = 0.0 if kind is Kind.SPEED else float(np.min(speed[speed > 0.0]))
+    if level <= 0.0 or level * (len(volts) - ran) < EXPECTED * count:
+        return 0
+    return int(np.flatnonzero(speed >= RUNNING * level)[-1]) + 1

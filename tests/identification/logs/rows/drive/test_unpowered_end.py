@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from motor_identification.logs.form import CsvForm, Kind
-from motor_identification.logs.rows.drive.unpowered_end import drop_unpowered_end
+from motor_identification.logs.rows.drive.unpowered_end import FEWEST, drop_unpowered_end
 from motor_identification.logs.rows.drive.unpowered_start import FEWEST_CHANGES, ROWS
 from motor_identification.logs.signals import Floats, Signals
 
@@ -64,3 +64,29 @@ def test_a_motor_that_stood_at_little_voltage_before_has_friction() -> None:
     speed = np.where((np.arange(1200) > 900) | (volts < 3.0), 0.0, 10.0 * volts)
     assert drop_unpowered_end(logged(volts, speed), SPEED)[1] == []
     assert drop_unpowered_end(logged(volts, np.zeros(1200)), SPEED)[1] == [], "one that never runs"
+
+
+def stopped(level: float, rest: int, kind: Kind) -> Signals:
+    """A staircase to a level, at which the motor comes to a stop of its own over five rows, and rests."""
+    volts = np.repeat([1.0, 2.0, 3.0, level], 40)
+    volts = np.concatenate((volts, np.full(5 + rest, level)))
+    speed = 10.0 * volts
+    speed[160:165] *= [0.7, 0.5, 0.3, 0.2, 0.1]
+    speed[165:] = 0.0
+    return logged(volts, speed if kind is Kind.SPEED else np.floor(np.cumsum(speed) / 4.0))
+
+
+@pytest.mark.parametrize("kind", [Kind.SPEED, Kind.COUNT])
+def test_a_stop_under_the_same_voltage_is_left_out_with_its_run_down(kind: Kind) -> None:
+    found, said = drop_unpowered_end(stopped(4.0, FEWEST, kind), replace(SPEED, kind=kind))
+    assert len(found) == 160 and "which y stands at up to 4 V and before which it ran at 2 V and less" in said[0]
+    for level, rest in ((4.0, FEWEST - 1 if kind is Kind.SPEED else FEWEST - 2), (1.5, 15)):
+        signals = stopped(level, rest, kind)
+        assert drop_unpowered_end(signals, replace(SPEED, kind=kind))[1] == [], "too short; it hardly ran at less"
+
+
+def test_a_slow_encoder_that_gives_no_count_for_some_rows_runs_on() -> None:
+    volts = np.repeat([1.0, 2.0, 3.0, 4.0], 40)
+    counts = np.floor(np.cumsum(0.05 * volts))
+    counts[-8:] = counts[-9]  # in which 1.6 counts were due
+    assert drop_unpowered_end(logged(volts, counts), replace(SPEED, kind=Kind.COUNT))[1] == []
