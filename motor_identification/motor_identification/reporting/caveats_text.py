@@ -6,11 +6,18 @@ from itertools import pairwise
 import numpy as np
 
 from motor_identification.diagnosis.result import Diagnosis, Finding
+from motor_identification.diagnosis.thresholds import EXPLAINED_GAP
 from motor_identification.noise.error_model import Disturbance
 from motor_identification.recording import Floats
 from motor_identification.reporting.numbers import format_measured
 from motor_model.effects import EFFECT_BY_NAME
 
+TOO_STRONG = (
+    " That is more than the {:.3g} V that was applied: rather noise of the sensor, times of rows that are off, or "
+    "something else that moves the shaft."
+)
+NO_TORQUE = "What is left is no random torque: none is found beside it ({})."
+NEGLIGIBLE = 1e-4  # of the largest voltage: the RMS of a torque that leaves nothing of a gap
 BREAKAWAY, PEAKS = "breakaway_voltage", 3.0  # standard deviations that a torque reaches now and then
 SUPPLY = (
     "A supply of {:.4g} V is assumed, the most that was applied unless the import said more: of another one "
@@ -65,9 +72,13 @@ def describe_disturbance(diagnosis: Diagnosis) -> str:
     if found is None:
         return ""
     strength = format_measured(found.rms_voltage, found.rms_error, "V RMS")
+    largest = max((float(np.max(np.abs(one.voltage))) for one in diagnosis.after.recordings), default=0.0)
+    if found.rms_voltage < NEGLIGIBLE * largest and diagnosis.gap_after > EXPLAINED_GAP * diagnosis.noise_floor:
+        return NO_TORQUE.format(strength)
     time = format_measured(found.correlation_time, found.time_error, "s")
     torque = f"The rest is random: a torque of {strength}, correlated over {time}."
-    return torque + _describe_breakaway(diagnosis.findings, found)
+    strong = TOO_STRONG.format(largest) if found.rms_voltage > largest else ""
+    return torque + strong + _describe_breakaway(diagnosis.findings, found)
 
 
 def _describe_breakaway(findings: Sequence[Finding], torque: Disturbance) -> str:

@@ -18,6 +18,31 @@ def test_a_random_torque_is_said_with_its_strength(variants: dict[Verdict, Diagn
         assert "random" not in summarize_diagnosis(replace(variants[verdict], disturbance=None))
 
 
+@pytest.mark.parametrize(("share", "said"), [(1.05, True), (0.95, False)])
+def test_a_torque_above_all_that_was_applied_is_none(
+    variants: dict[Verdict, Diagnosis], share: float, said: bool
+) -> None:
+    """Of a motor on 9 V the rest was said to be a torque of 15.6 V RMS, of a position that was a speed one of 76 V."""
+    one = variants[Verdict.UNDECIDED]
+    largest = max(float(np.abs(recording.voltage).max()) for recording in one.after.recordings)
+    text = summarize_diagnosis(replace(one, disturbance=Disturbance(share * largest, 0.1, 0.002, 0.001)))
+    assert "The rest is random" in text
+    assert (f"That is more than the {largest:.3g} V that was applied: rather noise of the sensor" in text) is said
+
+
+@pytest.mark.parametrize(("share", "gap", "none"), [(9e-5, 5.0, True), (1.1e-4, 5.0, False), (9e-5, 1.0, False)])
+def test_a_torque_that_leaves_nothing_is_not_what_is_left(
+    variants: dict[Verdict, Diagnosis], share: float, gap: float, none: bool
+) -> None:
+    """Steps whose starts were late by another time each left 5.7 times the floor, 'a torque of 7.193e-07 V RMS'."""
+    one = variants[Verdict.EXPLAINED]
+    largest = max(float(np.abs(recording.voltage).max()) for recording in one.after.recordings)
+    torque = Disturbance(share * largest, 1e-6, 0.3, 0.1)
+    text = summarize_diagnosis(replace(one, disturbance=torque, gap_after=gap * one.noise_floor))
+    assert ("What is left is no random torque: none is found beside it" in text) is none
+    assert ("The rest is random" in text) is not none
+
+
 @pytest.mark.parametrize(("error", "said"), [(0.44, True), (0.46, False)])
 def test_a_breakaway_beside_a_random_torque_may_be_larger(
     variants: dict[Verdict, Diagnosis], error: float, said: bool
