@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass
 
-from motor_identification.logs.columns.names.quantity import tell_quantity
+from motor_identification.logs.columns.names.quantity import is_speed_by_words, tell_quantity
 from motor_identification.logs.columns.names.words import find_device, find_side, split_words
 from motor_identification.logs.columns.vocabulary import (
     COUNTS_IN_BRACKETS,
@@ -22,6 +22,10 @@ _BRACKETS = re.compile(r"[\[({<]([^\])}>]*)[\])}>]")
 _VOLTS_AT_THE_END = re.compile(r"[^\W_][\s_]V$")  # `left_v` is a velocity
 _TELLING = frozenset().union(MEASURED, *(WORDS[kind] for kind in (*MOVES, Quantity.VOLTAGE, Quantity.DUTY)))
 _INSIDE = words_of("rpm erpm upm krpm rad_s deg_s rad_sec deg_sec deg degrees")  # units that are no other word
+# What a speed's unit may be where its name leaves the seconds out, `velocity_rad`; those that may be words, as in
+# `speed_m` of a motor and `speed_rev` of the other way, are units in brackets only.
+_NO_WORDS = words_of("rad deg cm mm")
+_A_SECOND = _NO_WORDS | words_of("in ft m rev")
 _PER = {**dict.fromkeys(("s", "sec", "second"), "s"), **dict.fromkeys(("min", "minute"), "min")}
 
 
@@ -41,13 +45,15 @@ def read_heading(name: str) -> Heading:
     if name.strip() == "MV":  # a controller's manipulated variable, and no millivolts
         return Heading(name, ("mv",), Quantity.DUTY, "", "")
     unit, rest = _unit_in_brackets(name)
-    words = split_words(rest)
+    in_brackets, words = bool(unit), split_words(rest)
     device = find_device(words)
     words = words[:-2] if device else words
     if not unit:
         behind = 1 if len(words) > 1 and (words[-1] in SIDES or words[-1] == "r") else 0  # rpm_left
         unit, before = _unit_at_the_end(words[: len(words) - behind])
         words = (*before, *words[len(words) - behind :])
+    if unit in _A_SECOND and is_speed_by_words(words):
+        unit = f"{unit}/s" if in_brackets or unit in _NO_WORDS else ""
     side = device or find_side(words)
     quantity = tell_quantity(words, unit)
     unit = unit or _unit_inside(words, quantity)

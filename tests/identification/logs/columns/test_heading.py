@@ -91,6 +91,20 @@ counts_per_second | speed          | count/s |
 rev_per_min       | speed          | rpm   |
 wheel turns per minute | speed     | rpm   |
 theta_dot         | speed          |       |
+velocity_rad      | speed          | rad/s |
+speed (deg)       | speed          | deg/s |
+vel_rad_left      | speed          | rad/s | left
+theta_dot [rad]   | speed          | rad/s |
+Winkelgeschwindigkeit (rad) | speed | rad/s |
+rpm_rad           | speed          | rad/s |
+velocity_mm       | speed          | mm/s  |
+speed [m]         | speed          | m/s   |
+speed_m           | speed          |       |
+speed_rev         | speed          |       |
+speed_in          | speed          |       |
+target_speed_rad  | reference      | rad/s |
+speed_angle_rad   | position       | rad   |
+speed_count       | count          | count |
 Temps [ms]        | time           | ms    |
 Tps [ms]          | time           | ms    |
 Consigne [pt]     | reference      | count |

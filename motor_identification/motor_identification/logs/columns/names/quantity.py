@@ -47,6 +47,14 @@ def tell_quantity(words: tuple[str, ...], unit: str) -> Quantity | None:
     return _quantity_of_an_output(words, told) or (told[0] if told else None)
 
 
+def is_speed_by_words(words: tuple[str, ...]) -> bool:
+    """Whether the words of a name tell a speed, whatever its unit: `omega`, `Winkelgeschwindigkeit`, `theta_dot`."""
+    if words and (words[-1] == "dot" or words[-1] in WORDS[Quantity.SPEED]):
+        return True
+    others = WORDS[Quantity.POSITION] | WORDS[Quantity.COUNT] - _SENSORS
+    return bool(WORDS[Quantity.SPEED] & set(words)) and not others & set(words)
+
+
 def _is_speed_after_all(words: tuple[str, ...], told: list[Quantity]) -> bool:
     """Whether another word than the first tells a speed: `theta_dot`, and `velocity_encoder`, which measures it."""
     if told[:2] == [Quantity.COUNT, Quantity.SPEED]:
