@@ -16,6 +16,7 @@ from motor_identification.logs.rows.drive.coded_rows import drop_coded_rows
 from motor_identification.logs.rows.drive.logged_levels import split_between_levels
 from motor_identification.logs.rows.drive.unpowered_end import drop_unpowered_end
 from motor_identification.logs.rows.drive.unpowered_start import drop_unpowered_start
+from motor_identification.logs.rows.drive.unread_start import drop_unread_start
 from motor_identification.logs.rows.even_clock import restore_even_clock
 from motor_identification.logs.rows.parts import (
     check_rest,
@@ -104,10 +105,25 @@ def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log
     signals, first = drop_first_rows(signals)
     signals, unpowered = drop_unpowered_start(signals, form)
     signals, off = drop_unpowered_end(signals, form)
+    signals, unread = drop_unread_start(signals, form)
     signals, absurd = drop_absurd_beginnings(signals) if form.kind is Kind.SPEED else (signals, [])
     signals, gaps = split_at_gaps(signals)
     signals, clock = restore_even_clock(signals, form.even_clock, form.kind is Kind.SPEED)
-    said += [*full, *stray, *restarts, *levels, *stamps, *divided, *first, *unpowered, *off, *absurd, *gaps, *clock]
+    said += [
+        *full,
+        *stray,
+        *restarts,
+        *levels,
+        *stamps,
+        *divided,
+        *first,
+        *unpowered,
+        *off,
+        *unread,
+        *absurd,
+        *gaps,
+        *clock,
+    ]
     check_rest(signals, table, form)
     check_steps(signals)
     info = replace(info, sample_period=float(np.median(signals.steps())) * 1e-9)
