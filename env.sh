@@ -21,6 +21,15 @@ case "$ROS_AUTOMATIC_DISCOVERY_RANGE" in
   *) _motor_profile=loopback.xml ;;
 esac
 case "${FASTRTPS_DEFAULT_PROFILES_FILE:-loopback.xml}" in
+  *loopback.xml | *quick_discovery.xml) ;;
+  *)
+    if [ ! -f "$FASTRTPS_DEFAULT_PROFILES_FILE" ] || [ ! -r "$FASTRTPS_DEFAULT_PROFILES_FILE" ]; then # Fast DDS would go on, open
+      echo "FASTRTPS_DEFAULT_PROFILES_FILE is $FASTRTPS_DEFAULT_PROFILES_FILE, which cannot be read: the workbench's own $_motor_profile is used. Correct it, or unset it." >&2
+      unset FASTRTPS_DEFAULT_PROFILES_FILE
+    fi
+    ;;
+esac
+case "${FASTRTPS_DEFAULT_PROFILES_FILE:-loopback.xml}" in
   *loopback.xml | *quick_discovery.xml)
     export FASTRTPS_DEFAULT_PROFILES_FILE="$_motor_root/motor_ros/motor_ros/$_motor_profile"
     ;;

@@ -2,7 +2,9 @@
 
 `ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST` says whom a node looks for, not who may look for it: its sockets stay open to
 every network. The profile for Fast DDS beside this file closes them. Whoever sets the range to SUBNET or
-SYSTEM_DEFAULT opens them; a profile of the user's own is left as it is.
+SYSTEM_DEFAULT opens them; a profile of the user's own is left as it is. One that is not there, or is no XML, would
+leave them open (Fast DDS says so among its errors, and goes on without), and so ours is used. What is set and empty is
+not set: a line of a script that found nothing.
 
 Peers and servers that the environment names would be told of a node all the same, and could not answer a closed one.
 """
@@ -10,12 +12,19 @@ Peers and servers that the environment names would be told of a node all the sam
 import os
 from collections.abc import MutableMapping
 from pathlib import Path
+from xml.parsers.expat import ExpatError, ParserCreate
+
+from motor_model import regular_file
+from motor_model.errors import MotorError
 
 RANGE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
 PROFILE = "FASTRTPS_DEFAULT_PROFILES_FILE"
 CLOSED = Path(__file__).with_name("loopback.xml")
 OPEN = Path(__file__).with_name("quick_discovery.xml")
 ELSEWHERE = ("ROS_STATIC_PEERS", "ROS_DISCOVERY_SERVER")  # who is told of a node, whatever the range
+SKIP = "SKIP_DEFAULT_XML_FILE"
+MIDDLEWARE = "RMW_IMPLEMENTATION"
+MOST = 1 << 20  # [byte] of a profile
 _OPENED = ("SUBNET", "SYSTEM_DEFAULT")
 NOT_TOLD = (
     "{} is set and not used, for nodes stay on this machine: export ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET to open it."
@@ -24,17 +33,42 @@ OPENED = (
     "ROS_AUTOMATIC_DISCOVERY_RANGE opens the network: everybody on it hears the motors and drives them; unset it to "
     "stay on this machine."
 )
+LOST = "{} is {}, which cannot be read: the workbench's own {} is used. Correct it, or unset it."
+OTHER = (
+    "RMW_IMPLEMENTATION is {}, which does not read what keeps nodes on this machine: give it an interface list of its "
+    "own (docs/security.md), or everybody on the network may hear the motors and drive them."
+)
 
 
 def stay_on_this_machine(environment: MutableMapping[str, str] = os.environ) -> str:
     """Set what Fast DDS reads when the first node starts, as env.sh does for a shell; say what is not used, or open."""
-    environment.setdefault(RANGE, "LOCALHOST")
+    environment[RANGE] = environment.get(RANGE) or "LOCALHOST"
+    environment[SKIP] = environment.get(SKIP) or "1"  # a profile in the working directory is not read
     ours = CLOSED if environment[RANGE] not in _OPENED else OPEN
-    if Path(environment.get(PROFILE, ours)).name in (CLOSED.name, OPEN.name):
-        environment[PROFILE] = str(ours)
-    environment.setdefault("SKIP_DEFAULT_XML_FILE", "1")  # a profile in the working directory is not read
+    theirs = environment.get(PROFILE) or str(ours)
+    named = Path(theirs).name in (CLOSED.name, OPEN.name)
+    lost = not named and not _is_profile(theirs)
+    environment[PROFILE] = str(ours) if named or lost else theirs
+    said = [_find_other_middleware(environment)] + [LOST.format(PROFILE, theirs, ours.name)] * lost
     if environment[PROFILE] == str(OPEN):
-        return OPENED
+        return " ".join(filter(None, (*said, OPENED)))
     closed = environment[PROFILE] == str(CLOSED)
     unused = [name for name in ELSEWHERE if closed and environment.pop(name, "")]
-    return NOT_TOLD.format(" and ".join(unused)) if unused else ""
+    said += [NOT_TOLD.format(" and ".join(unused))] if unused else []
+    return " ".join(filter(None, said))
+
+
+def _is_profile(path: str) -> bool:
+    """Tell whether a file can be read and is XML; what else is wrong with a profile is its owner's."""
+    try:
+        ParserCreate().Parse(regular_file.read_bytes(path, MOST), True)
+    except (OSError, MotorError, ExpatError):
+        return False
+    return True
+
+
+def _find_other_middleware(environment: MutableMapping[str, str]) -> str:
+    """Say that a middleware is none of Fast DDS's, unless Cyclone DDS has a configuration of its own; "" otherwise."""
+    name = environment.get(MIDDLEWARE) or "rmw_fastrtps_cpp"
+    configured = "cyclonedds" in name and bool(environment.get("CYCLONEDDS_URI"))
+    return "" if name.startswith("rmw_fastrtps") or configured else OTHER.format(name)

@@ -7,10 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from motor_ros.loopback import CLOSED, OPEN, PROFILE, RANGE, stay_on_this_machine
+from motor_ros.loopback import CLOSED, MIDDLEWARE, OPEN, OTHER, PROFILE, RANGE, SKIP, stay_on_this_machine
 
 ROOT = Path(__file__).resolve().parents[2]
 SUPPORT = ROOT / "tests" / "support"
+OWN = str(SUPPORT / "quick_announcements.xml")
 CASES = [
     ({}, "LOCALHOST", CLOSED.name),
     ({RANGE: "OFF"}, "OFF", CLOSED.name),
@@ -18,7 +19,11 @@ CASES = [
     ({RANGE: "SYSTEM_DEFAULT"}, "SYSTEM_DEFAULT", OPEN.name),
     ({RANGE: "LOCALHOST", PROFILE: f"/old/{OPEN.name}"}, "LOCALHOST", CLOSED.name),
     ({RANGE: "SUBNET", PROFILE: f"/old/{CLOSED.name}"}, "SUBNET", OPEN.name),
-    ({PROFILE: "/home/own.xml"}, "LOCALHOST", "own.xml"),
+    ({PROFILE: OWN}, "LOCALHOST", Path(OWN).name),
+    ({RANGE: "", PROFILE: "", SKIP: ""}, "LOCALHOST", CLOSED.name),
+    ({PROFILE: "/moved/own.xml"}, "LOCALHOST", CLOSED.name),
+    ({PROFILE: str(ROOT)}, "LOCALHOST", CLOSED.name),
+    ({RANGE: "SUBNET", PROFILE: "/moved/own.xml"}, "SUBNET", OPEN.name),
 ]
 
 
@@ -28,7 +33,8 @@ def test_sockets_are_closed_unless_the_user_opens_them(environment: dict[str, st
     said = stay_on_this_machine(ours)
     assert ("everybody on it hears the motors" in said) == (profile == OPEN.name)
     assert (ours[RANGE], Path(ours[PROFILE]).name, ours["SKIP_DEFAULT_XML_FILE"]) == (wanted, profile, "1")
-    assert profile == "own.xml" or Path(ours[PROFILE]).is_file()
+    assert Path(ours[PROFILE]).is_file()
+    assert ("cannot be read" in said) == (environment.get(PROFILE) in ("/moved/own.xml", str(ROOT)))
 
 
 @pytest.mark.parametrize(("environment", "wanted", "profile"), CASES)
@@ -40,14 +46,15 @@ def test_env_sh_says_the_same(environment: dict[str, str], wanted: str, profile:
     )
     said = done.stdout.split()
     assert (said[0], Path(said[1]).name, said[2]) == (wanted, profile, "1")
-    assert ("is your own" in done.stderr) == (profile == "own.xml")
+    assert ("is your own" in done.stderr) == (profile == Path(OWN).name)
+    assert ("cannot be read" in done.stderr) == (environment.get(PROFILE) in ("/moved/own.xml", str(ROOT)))
     assert ("everybody on it hears the motors" in done.stderr) == (profile == OPEN.name)
 
 
 @pytest.mark.parametrize("name", ["ROS_STATIC_PEERS", "ROS_DISCOVERY_SERVER"])
 @pytest.mark.parametrize(
     ("environment", "kept"),
-    [({}, False), ({RANGE: "OFF"}, False), ({RANGE: "SUBNET"}, True), ({PROFILE: "/o.xml"}, True)],
+    [({}, False), ({RANGE: "OFF"}, False), ({RANGE: "SUBNET"}, True), ({PROFILE: OWN}, True)],
 )
 def test_nobody_elsewhere_is_told_of_a_closed_node(name: str, environment: dict[str, str], kept: bool) -> None:
     """Left over from another project, they were: 27 packets to each of 32 ports of a peer in 7 s."""
@@ -65,6 +72,30 @@ def test_nobody_elsewhere_is_told_of_a_closed_node(name: str, environment: dict[
         timeout=120.0,
     )
     assert done.stdout.strip() == ours.get(name, "") and (said in done.stderr)
+
+
+def test_a_profile_that_is_no_xml_is_not_used(tmp_path: Path) -> None:
+    """Fast DDS goes on without it: UDP on 0.0.0.0."""
+    broken = tmp_path / "own.xml"
+    broken.write_text("<dds><profiles>")
+    ours = {PROFILE: str(broken)}
+    assert f"{broken}, which cannot be read" in stay_on_this_machine(ours) and ours[PROFILE] == str(CLOSED)
+
+
+@pytest.mark.parametrize(
+    ("environment", "said"),
+    [
+        ({MIDDLEWARE: "rmw_fastrtps_cpp"}, False),
+        ({MIDDLEWARE: "rmw_fastrtps_dynamic_cpp"}, False),
+        ({MIDDLEWARE: ""}, False),
+        ({MIDDLEWARE: "rmw_cyclonedds_cpp"}, True),
+        ({MIDDLEWARE: "rmw_cyclonedds_cpp", "CYCLONEDDS_URI": "own.xml"}, False),
+        ({MIDDLEWARE: "rmw_zenoh_cpp"}, True),
+    ],
+)
+def test_a_middleware_that_the_profile_is_not_for_is_said(environment: dict[str, str], said: bool) -> None:
+    told = stay_on_this_machine(dict(environment))
+    assert told == (OTHER.format(environment[MIDDLEWARE]) if said else "")
 
 
 def transports(path: Path) -> tuple[list[str], list[str], str]:
