@@ -93,6 +93,11 @@ class Driver:
         return self._readout.supply if self._readout else self.config.full_voltage
 
     @property
+    def highest_supply(self) -> float:
+        """[V] that the supply may have, where what is measured is not to be believed; 0: it is."""
+        return self._readout.highest_supply if self._readout else 0.0
+
+    @property
     def encoder_errors(self) -> int:
         """Transitions of both encoder lines at once, which no motion makes."""
         return self._readout.errors if self._readout else 0

@@ -14,8 +14,9 @@ from motor_model.sensing.supply import find_least_supply
 HALF, WRAP = 1 << 31, 1 << 32
 STEP = 5.0 / 1024  # [V] of the board's converter
 MEMORY = 0.5  # [s] over which a measured supply is smoothed: its converter's step is 20 mV
-# Of `supply_voltage`, where it is said: no supply at work falls lower, and what reads less is a divider that has come
-# loose, or is another one; by as much the motor would get more than was asked for.
+# Of `supply_voltage`, where it is said, and of what the supply was measured as before: no supply at work falls lower,
+# and what reads less is a divider that has come loose, or is another one; by as much the motor would get more than was
+# asked for. Whatever reads less may be as high as ever, and the motor gets no more than its own voltage of that.
 LEAST = 0.5
 RISE = 1.05  # times that: more is no noise, and until it is known the motor would get as much more than was asked for
 
@@ -31,6 +32,8 @@ class Readout:
         self.errors = 0  # transitions of both encoder lines at once, over all resets
         self.supply = config.full_voltage  # [V] at full duty
         self._measured = False
+        self.highest_supply = 0.0  # [V] that it may have, where what is measured is not to be believed
+        self._usual_supply = 0.0  # [V] the most that was measured, smoothed without a jump: a spike is no supply
         self.clock = BoardClock(board.tick_ns)
         self._begin(board)
 
@@ -91,15 +94,19 @@ class Readout:
     def _follow_supply(self, millivolts: int) -> None:
         """Take the supply that the board measures for the voltage at full duty."""
         if millivolts != NOT_MEASURED and millivolts * 1e-3 >= find_least_supply(self._config.full_voltage):
-            measured = max(millivolts * 1e-3, LEAST * self._config.supply_voltage)
             share = min(1.0 / (MEMORY * self._config.sample_rate), 1.0)
+            self._usual_supply += share * max(millivolts * 1e-3 - self._usual_supply, 0.0)
+            usual = max(self._config.supply_voltage, self._usual_supply)
+            measured = max(millivolts * 1e-3, LEAST * usual)
             known = self._measured and measured <= RISE * self.supply
             self.supply += (share if known else 1.0) * (measured - self.supply)
             self._measured = True
+            self.highest_supply = usual if millivolts * 1e-3 < LEAST * usual else 0.0
 
     def duty(self, voltage: float) -> int:
         """What to command for a voltage [V]: no more than the motor's, and than the supply gives."""
         limit = min(self._config.max_voltage, self.supply)
-        most = int(limit / self.supply * self._top)  # rounded down: half a step more is more than the motor's
+        highest = max(self.supply, self.highest_supply)
+        most = int(limit / highest * self._top)  # rounded down: half a step more is more than the motor's
         duty = min(max(round(min(max(voltage, -limit), limit) / self.supply * self._top), -most), most)
         return self._motor * duty

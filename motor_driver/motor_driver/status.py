@@ -107,7 +107,13 @@ def _encoder(errors: int, board: Hello | None) -> str:
 
 def _supply(driver: Driver) -> str:
     """A measured supply that is not what the parameter says."""
-    told, taken = driver.config.supply_voltage, driver.supply
+    told, taken, highest = driver.config.supply_voltage, driver.supply, driver.highest_supply
+    if highest > told:
+        return (
+            f"The board measures a supply of less than {LEAST * highest:.1f} V, and it was {highest:.1f} V: the former "
+            "are taken for it. See whether the divider at A0 is connected; if the supply is another one, start the "
+            "driver again."
+        )
     if not told or abs(taken - told) <= OTHER_SUPPLY * told:
         return ""
     if taken <= 1.01 * LEAST * told:

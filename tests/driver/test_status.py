@@ -72,3 +72,18 @@ def test_a_supply_that_is_not_the_one_named(make_rig: MakeRig, told: float, comp
     assert (f"The board measures a supply of {measured}, and supply_voltage is {told:g} V" in said) == complains
     assert ("See whether the divider at A0 is connected" in said) == (told > 24.0)
     assert complains or said == ""
+
+
+def test_a_supply_that_falls_to_less_than_half_of_what_it_was(make_rig: MakeRig) -> None:
+    board = FirmwareConfig(edges_per_revolution=96, channels=2, supply_full_scale=20_000)
+    rig = make_rig(config=Config(single_channel=False), firmware=board)
+    rig.emulator.chip.supply(3.0)  # of 5 V, for 20 V
+    rig.plug()
+    rig.until(lambda: len(rig.readings) > 400, 3000)
+    rig.emulator.chip.supply(0.9)
+    was = status.tally(rig.driver, rig.now)
+    rig.run(100)
+    said = status.problem(rig.driver, was, rig.now)
+    assert (
+        "supply of less than 5.9 V, and it was 11.8 V" in said and "See whether the divider at A0 is connected" in said
+    )
