@@ -7,7 +7,7 @@ from motor_bringup import motor
 from motor_bringup.argument import PARAMETERS, PLANT, Argument, checked
 from motor_bringup.files import named
 from motor_bringup.motors import BOARDS, SIDES, boards_of
-from motor_bringup.parameter_file import parameters_for
+from motor_bringup.parameter_file import parameters_told
 from motor_bringup.plant import with_files
 from motor_bringup.program import Program, Session
 
@@ -57,6 +57,6 @@ def _let_references_end(program: Program, values: Mapping[str, str]) -> Program:
     if program.executable != "motor_control":
         return program
     file = named(values["parameters"], "parameter file") if values["parameters"] else ""
-    theirs = parameters_for(program.full_name, file) if file else {}
+    theirs = parameters_told(program.full_name, file) if file else {}
     timeout = {"reference_timeout": theirs.get("reference_timeout", REFERENCE_TIMEOUT)}
     return replace(program, parameters={**program.parameters, **timeout})

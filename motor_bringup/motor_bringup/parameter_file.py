@@ -4,15 +4,13 @@ ROS 2 itself lets a section for `/**` lose against one for the node's name even 
 goes by the first file that names a section; so the files are read here and the node gets plain values.
 """
 
-import re
 from collections.abc import Iterator
 from typing import Any
 
 from motor_bringup.program import Value
-from motor_model import yaml_file
 from motor_model.errors import MotorError
-
-HERE = "ros__parameters"
+from motor_model.given.mistakes import find_unreached
+from motor_model.given.sections import HERE, reaches, read_sections
 
 
 def parameters_for(node: str, path: str) -> dict[str, Value]:
@@ -21,7 +19,18 @@ def parameters_for(node: str, path: str) -> dict[str, Value]:
     Raises:
         MotorError: the file is no parameter file.
     """
-    return _joined(values for name, values in _sections(path) if _pattern(name).fullmatch(node))
+    return _joined(values for name, values in read_sections(path) if reaches(name, node))
+
+
+def parameters_told(node: str, path: str) -> dict[str, Value]:
+    """Return the same of a file that a user has named.
+
+    Raises:
+        MotorError: the file is no parameter file, or a section in it was meant for this node and is not for it.
+    """
+    if unreached := find_unreached(path, node):
+        raise MotorError(f"{unreached}.")
+    return parameters_for(node, path)
 
 
 def parameters_named(node: str, path: str) -> dict[str, Value]:
@@ -30,38 +39,11 @@ def parameters_named(node: str, path: str) -> dict[str, Value]:
     Raises:
         MotorError: the file is no parameter file, or has nothing for this node.
     """
-    sections = ((name.rpartition("/")[2], values) for name, values in _sections(path))
+    sections = ((name.rpartition("/")[2], values) for name, values in read_sections(path))
     found = _joined(values for name, values in sections if name in (node, "**"))
     if not found:
         raise MotorError(f"{path} has no parameters for {node}: it needs '/**/{node}:' with '{HERE}:' in it.")
     return found
-
-
-def _sections(path: str) -> Iterator[tuple[str, dict[str, Any]]]:
-    try:
-        content = yaml_file.read(path)
-    except (OSError, MotorError) as error:
-        reason = error.strerror if isinstance(error, OSError) else f"it {error}"
-        raise MotorError(f"{path} cannot be read as YAML ({reason}): correct it, or name another file.") from error
-    sections = list(_below("", content)) if isinstance(content, dict) else []
-    if not sections:
-        raise MotorError(f"{path} is no parameter file: it needs '/**:' or the name of a node, and '{HERE}:' in it.")
-    yield from sections
-
-
-def _below(name: str, content: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Namespaces may stand in the name of the node or around it."""
-    for key, entry in content.items():
-        if key == HERE:
-            yield name, entry or {}
-        elif isinstance(entry, dict):
-            yield from _below(f"{name}/{str(key).strip('/')}", entry)
-
-
-def _pattern(name: str) -> "re.Pattern[str]":
-    """`*` is one part of a name, `**` any number of them, none included."""
-    parts = name.strip("/").split("/")
-    return re.compile("".join({"**": "(/[^/]+)*", "*": "/[^/]+"}.get(part, "/" + re.escape(part)) for part in parts))
 
 
 def _joined(sections: Iterator[dict[str, Any]]) -> dict[str, Value]:

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from motor_bringup.argument import namespace_of
 from motor_bringup.files import config, named
-from motor_bringup.parameter_file import parameters_for
+from motor_bringup.parameter_file import parameters_for, parameters_told
 from motor_bringup.program import Program, Value
 from motor_model.model_file import load
 
@@ -35,9 +35,9 @@ def with_files(node: str, name: str, values: Mapping[str, str], own: Mapping[str
     """This package's values, then what the launch file works out, then the user's file, then what the user says here.
 
     Raises:
-        MotorError: the user's file is no parameter file.
+        MotorError: the user's file is no parameter file, or was meant for this node and is not for it.
     """
-    theirs = parameters_for(node, named(values["parameters"], "parameter file")) if values["parameters"] else {}
+    theirs = parameters_told(node, named(values["parameters"], "parameter file")) if values["parameters"] else {}
     worked_out = {name: value for name, value in own.items() if name in WORKED_OUT}
     told = {name: value for name, value in own.items() if name not in WORKED_OUT}
     return {**parameters_for(node, config(name)), **worked_out, **theirs, **told}

@@ -50,6 +50,10 @@ class MotorControl(Node):
         self.add_on_set_parameters_callback(self._on_parameters)
         self.get_logger().info(describe_start(self._settings.config))
 
+    def doubt(self, why: str) -> None:
+        """Leave the motor at 0 V until motor/reset: what was given does not reach the node."""
+        self._state = controller.stop(self._state, f"{why[0].upper()}{why[1:]}.", time.monotonic())
+
     def close(self) -> None:
         """Leave the motor at 0 V, and see that it arrives."""
         self._answers.close()

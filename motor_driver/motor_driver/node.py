@@ -42,6 +42,10 @@ class MotorDriver(Node):
         steady_timer(self, WATCH_EVERY, self._on_watch)
         steady_timer(self, 1.0, self._on_second)
 
+    def doubt(self, why: str) -> None:
+        """Leave the output off: what was given does not reach the node, and the motor may be another than it takes."""
+        self._plant.stop(why)
+
     def close(self) -> None:
         """Switch the output off while the port is still open."""
         self._plant.gate = self._plant.gate.enable(False)

@@ -79,14 +79,19 @@ def declare(node: Node, rows: Iterable[Row]) -> dict[str, Value]:
     return values
 
 
+def given_parameters(node: Node) -> list[str]:
+    """Name the parameters that the command line and files give a node, whether or not it has them."""
+    given: Iterable[str] = getattr(node, "_parameter_overrides", ())  # rclpy has no public name for them
+    return sorted(name for name in given if not name.startswith("qos_overrides."))
+
+
 def unknown_parameters(node: Node, rows: Iterable[Row]) -> list[str]:
     """Name, a sentence each, given parameters that the node does not have: ROS passes over them in silence."""
     names = [row.name for row in rows]
-    given: Iterable[str] = getattr(node, "_parameter_overrides", ())  # rclpy has no public name for them
     return [
         f"there is no parameter {name} here, and it has no effect{_did_you_mean(name, names)}"
-        for name in sorted(given)
-        if not node.has_parameter(name) and not name.startswith("qos_overrides.")
+        for name in given_parameters(node)
+        if not node.has_parameter(name)
     ]
 
 

@@ -4,7 +4,7 @@ import os
 import signal
 import sys
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import FrameType
 
@@ -15,10 +15,11 @@ from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
 from motor_model.errors import MotorError
+from motor_model.given.mistakes import find_mistake
 from motor_model.program.internal_error import report
 from motor_ros.clocks.clock_watch import ClockWatch
 from motor_ros.loopback import stay_on_this_machine
-from motor_ros.parameters import unknown_parameters
+from motor_ros.parameters import given_parameters, unknown_parameters
 from motor_ros.program import INVALID_ARGUMENTS, Program, answer, plain_sentence
 
 LOOK_FOR_SIGNALS_EVERY = 0.1  # [s] how long an idle node takes at most to notice Ctrl-C
@@ -140,7 +141,8 @@ def run(
     """Create a node, run it until Ctrl-C, let it `close()`, and return the exit status.
 
     With a `program`, `--help` and `--version` are answered without starting. A node that has a `close` method is asked
-    to leave the motor at 0 V while it can still publish.
+    to leave the motor at 0 V while it can still publish; one that has a `doubt` method is told, as a clause, what was
+    given to it and does not reach it.
     """
     if program is not None:
         answer(program, sys.argv[1:] if args is None else args)
@@ -152,6 +154,7 @@ def run(
         node = _created(create)
         for warning in unknown_parameters(node, program.rows if program else ()):
             node.get_logger().warning(warning)
+        _doubt(node, program, sys.argv[1:] if args is None else args)
         spin(node, lambda: bool(interrupt), make_executor)
     except MotorError as error:
         print(error, file=sys.stderr)
@@ -165,6 +168,16 @@ def run(
         rclpy.try_shutdown()
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # a second Ctrl-C does not turn a clean end into a failure
     return status
+
+
+def _doubt(node: Node, program: Program | None, words: Sequence[str]) -> None:
+    """Have a node that drives a motor leave it at 0 V where something that was given does not reach the node."""
+    doubt = getattr(node, "doubt", None)
+    if doubt is None or program is None:
+        return
+    known = [row.name for row in program.rows]
+    if mistake := find_mistake(node.get_fully_qualified_name(), given_parameters(node), known, words):
+        doubt(mistake)
 
 
 def _end(node: Node) -> int:

@@ -56,6 +56,10 @@ class MotorSim(Node):
             f"Simulating '{model.name}' ({effects}): {config.sample_rate:g} Hz, {min(limit, supply):g} V."
         )
 
+    def doubt(self, why: str) -> None:
+        """Leave the output off: what was given does not reach the node, and the motor may be another than it takes."""
+        self._plant.stop(why)
+
     def _on_timer(self) -> None:
         now = time.monotonic_ns()
         to_ros = self._plant.now() - now

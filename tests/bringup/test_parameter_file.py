@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from motor_bringup.parameter_file import parameters_for, parameters_named
+from motor_bringup.parameter_file import parameters_for, parameters_named, parameters_told
 from motor_model.errors import MotorError
 
 
@@ -56,3 +56,10 @@ def test_what_is_no_parameter_file_is_one_sentence(tmp_path: Path, text: str) ->
 def test_what_is_no_yaml_is_one_sentence(tmp_path: Path) -> None:
     with pytest.raises(MotorError, match="cannot be read as YAML"):
         parameters_for("/motor_sim", written(tmp_path / "p.yaml", "{"))
+
+
+def test_a_section_that_was_meant_for_a_node_and_is_not_for_it_is_refused(tmp_path: Path) -> None:
+    file = written(tmp_path / "p.yaml", "motor_sim:\n  ros__parameters: {max_voltage: 3.0}\n")
+    with pytest.raises(MotorError, match=r"for 'motor_sim', which is not /left/motor_sim: write '/\*\*/motor_sim'"):
+        parameters_told("/left/motor_sim", file)
+    assert parameters_told("/motor_sim", file) == {"max_voltage": 3.0}

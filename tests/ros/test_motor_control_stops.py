@@ -7,12 +7,12 @@ import time
 
 import pytest
 import rclpy
-from controller_bench import FakePlant
+from controller_bench import PATIENT, FakePlant
 from diagnostic_msgs.msg import DiagnosticStatus
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
-from workbench import end
+from workbench import end, start
 
 from motor_model.sample import Info
 from motor_ros import qos
@@ -208,3 +208,19 @@ def test_an_output_that_is_off_is_said_and_winds_nothing_up(plant: FakePlant) ->
     plant.enabled = True
     plant.answer(10.0)
     assert plant.answer(10.0).reason == "" and plant.answer(10.0).integral > first
+
+
+def test_a_limit_that_is_misspelt_is_a_stop_until_it_is_reset(plant: FakePlant) -> None:
+    process = start("motor_control", "motor_control", *PATIENT, "-p", "voltage_limt:=3.0")
+    try:
+        plant.tell(Info(name="wheel"), measurement="speed")
+        plant.await_controller()
+        state = plant.ask(0.0)
+        assert state.state == "stopped"
+        assert state.reason.startswith(
+            "There is no parameter voltage_limt, and voltage_limit may be meant. Call motor/re"
+        )
+        assert plant.call(Trigger, "motor/reset", Trigger.Request()).success
+        assert plant.ask(0.0).state == "disabled"
+    finally:
+        end(process)

@@ -41,6 +41,20 @@ def test_a_voltage_that_is_no_number_stops_the_motor(start: Start, user: User, n
     assert all(sample.voltage in (0.0, 5.0) for sample in user.samples)
 
 
+def test_a_limit_that_is_misspelt_leaves_the_output_off_until_it_is_enabled(
+    bench: Bench, start: Start, user: User
+) -> None:
+    """`max_voltge: 3` was 12 V on a 3 V motor, with a line in the log."""
+    start("motor_sim", "motor_sim", *PATIENT, "-p", "max_voltge:=3.0")
+    status = bench.hear(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
+    user.voltage = 5.0
+    said = "The output is off (there is no parameter max_voltge, and max_voltage may be meant)"
+    user.until(lambda _: any(one.status[0].message.startswith(said) for one in status), said)
+    assert all(sample.voltage == 0.0 for sample in user.samples)
+    assert bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
+    user.until(lambda sample: sample.voltage == 5.0, "motion")
+
+
 def test_loads_a_model_and_says_what_it_simulates(bench: Bench, start: Start, user: User, tmp_path: Path) -> None:
     model = Parameters({"kv": 0.1, "ka": 0.005, "ks": 1.0}, ("coulomb_friction",), max_voltage=9.0, name="stiff")
     save(tmp_path / "stiff.yaml", model)
