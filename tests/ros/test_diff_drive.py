@@ -12,6 +12,7 @@ from nav_msgs.msg import Odometry
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParameters
 from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 from workbench import Bench, end
 
@@ -51,6 +52,17 @@ class Driver:
 def held(timeout: float) -> SetParameters.Request:
     value = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=timeout)
     return SetParameters.Request(parameters=[Parameter(name="reference_timeout", value=value)])
+
+
+def test_a_drive_whose_limit_is_misspelt_asks_for_no_motion(bench: Bench, start: Start) -> None:
+    process = start("motor_examples", "diff_drive", "--ros-args", "-p", "max_lineer:=0.1")
+    references = bench.hear(Float64, "left/motor/reference", qos.REFERENCE)
+    driver = Driver(bench)
+    driver.twist = (0.4, 1.0)
+    bench.wait(lambda: driver.reason != "", "the drive")
+    _, err = end(process)
+    said = "There is no parameter max_lineer, and max_linear may be meant: correct that, and start the drive again."
+    assert said in err and not any(one.data for one in references)
 
 
 @pytest.mark.long

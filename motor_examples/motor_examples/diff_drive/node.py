@@ -28,6 +28,7 @@ from motor_ros.numbered_input import Arrival, NumberedInput
 from motor_ros.parameters import declare
 from motor_ros.run import quick_executor, run
 
+DOUBT = "{}: correct that, and start the drive again."
 NO_TF = "tf2_msgs is not installed here: no transforms on /tf; the pose is on odom."
 
 
@@ -38,6 +39,7 @@ class DiffDrive(Node):
         super().__init__("diff_drive")
         self._values = declare(self, ROWS)
         self._config, self._state, self._pose = config_of(self._values), drive.State(), Pose()
+        self._doubt = ""  # why no velocity is obeyed
         self._decision, self._turned = drive.Decision(None), Wheels(0.0, 0.0)
         sides = ("left", "right")
         motors = [Motor(self, str(self._values[s]), bool(self._values[f"{s}_reversed"])) for s in sides]
@@ -64,6 +66,11 @@ class DiffDrive(Node):
         steady_timer(self, 1.0, self._on_second)
         self.add_on_set_parameters_callback(self._on_parameters)
 
+    def doubt(self, why: str) -> None:
+        """Obey no velocity: what was given does not reach the node, and may be a limit."""
+        self._doubt = DOUBT.format(why[0].upper() + why[1:])
+        self.get_logger().error(self._doubt)
+
     def close(self) -> None:
         """Stop both wheels and let go of them."""
         self._tell(drive.Decision(Wheels(0.0, 0.0), True))
@@ -88,6 +95,8 @@ class DiffDrive(Node):
         self._input.poll()
         if players := self._commanders.players:
             self._state = drive.refuse_command(self._state, drive.PLAYED.format(players), time.monotonic())
+        if self._doubt:
+            self._state = drive.refuse_command(self._state, self._doubt, time.monotonic())
         wheels = (self._left.wheel, self._right.wheel)
         decision, self._state = drive.step(self._config, self._state, wheels, time.monotonic())
         self._tell(decision)

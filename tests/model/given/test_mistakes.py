@@ -6,10 +6,11 @@ import pytest
 
 from motor_control.parameters import ROWS as CONTROL
 from motor_driver.parameters import ROWS as DRIVER
+from motor_examples.diff_drive.parameters import ROWS as DRIVE
 from motor_model.given.mistakes import find_misspelt, find_mistake, find_unreached
 from motor_sim.parameters import PROGRAM as SIM
 
-TABLES = {"motor_driver": DRIVER, "motor_sim": SIM.rows, "motor_control": CONTROL}
+TABLES = {"motor_driver": DRIVER, "motor_sim": SIM.rows, "motor_control": CONTROL, "diff_drive": DRIVE}
 NAMES = {node: [row.name for row in rows] for node, rows in TABLES.items()}
 
 
@@ -24,7 +25,7 @@ def test_a_slip_of_the_pen_is_told(typed: str) -> None:
 @pytest.mark.parametrize("node", TABLES)
 def test_no_parameter_of_another_node_of_the_workbench_is_taken_for_a_slip(node: str) -> None:
     """One file may be given to all of them, and to others: `/**:`."""
-    everything = {name for names in NAMES.values() for name in names} | {"cmd_vel_timeout", "use_sim_time", "frame_id"}
+    everything = {name for names in NAMES.values() for name in names} | {"use_sim_time", "frame_id"}
     assert find_misspelt(everything, NAMES[node]) == ""
     for name in everything:
         assert find_misspelt([name], NAMES[node]) == ""
