@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 
 from motor_control.controller.faults import (
+    acceleration,
     contradiction,
     dropouts,
     few_edges,
@@ -38,6 +39,7 @@ class State:
     dropped: dropouts.State = dropouts.State()
     hums: hum.State = hum.State()
     repeated: repetition.State = repetition.State()
+    gaining: acceleration.State = acceleration.State()
 
 
 def begin(speed: float, before: State | None = None) -> State:
@@ -49,7 +51,8 @@ def begin(speed: float, before: State | None = None) -> State:
     if before is None:
         return State(missing=few_edges.State(expected=speed), contradicted=contradiction.begin(speed))
     missing, stalled = replace(before.missing, expected=speed), replace(before.stalled, speed=0.0)
-    return replace(before, missing=missing, undriven=runaway.State(), driven=implied_load.State(), stalled=stalled)
+    before = replace(before, missing=missing, stalled=stalled)
+    return replace(before, undriven=runaway.State(), driven=implied_load.State(), gaining=acceleration.State())
 
 
 def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
@@ -70,7 +73,25 @@ def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     loose, dropped = dropouts.check(config, state.dropped, seen)
     humming, hums = hum.check(config, state.hums, seen)
     again, repeated = repetition.check(config, state.repeated, seen)
-    found = (still, few, irregular, odd, away, fast, wrong, kept, heavy, restless, again, false, humming, same, loose)
+    quick, gaining = acceleration.check(config, state.gaining, seen)
+    found = (
+        quick,
+        still,
+        few,
+        irregular,
+        odd,
+        away,
+        fast,
+        wrong,
+        kept,
+        heavy,
+        restless,
+        again,
+        false,
+        humming,
+        same,
+        loose,
+    )
     return next((one for one in found if one), ""), State(
         stalled,
         missing,
@@ -87,4 +108,5 @@ def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
         dropped,
         hums,
         repeated,
+        gaining,
     )
