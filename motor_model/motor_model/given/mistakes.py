@@ -11,6 +11,7 @@ from motor_model.given.sections import reaches, read_sections
 # all its nodes, are command_timeout and joint_command_timeout, at 0.83.
 CLOSE = 0.85
 
+DIGITS = "0123456789_"
 MISSPELT = "there is no parameter {}, and {} may be meant"
 NAMESPACE = "{0} has parameters for '{1}', which is not {2}: write '/**/{3}', or '{2}'"
 NAME = "{} has parameters for '{}', and {} may be meant"
@@ -43,7 +44,8 @@ def find_unreached(path: str, node: str) -> str:
         last = name.rpartition("/")[2]
         if name == own:
             return NAMESPACE.format(path, name, node, own)
-        if last != own and get_close_matches(_plain(last), [_plain(own)], 1, CLOSE):
+        numbered = last != own and last.rstrip(DIGITS) == own.rstrip(DIGITS)  # motor_driver1 beside motor_driver2
+        if last != own and not numbered and get_close_matches(_plain(last), [_plain(own)], 1, CLOSE):
             return NAME.format(path, name, own)
     return ""
 

@@ -48,6 +48,7 @@ def written(path: Path, *names: str) -> str:
         (("/left/motor_driver", "/right/motor_driver"), "/left/motor_driver", ""),
         (("/right/motor_driver",), "/left/motor_driver", ""),  # this one shall have the defaults
         (("/**",), "/left/motor_driver", ""),
+        (("motor_driver2", "motor_driver_3"), "/motor_driver1", ""),
         (("motor_sim", "motor_control", "talker"), "/left/motor_driver", ""),
     ],
 )
