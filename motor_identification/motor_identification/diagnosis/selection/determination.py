@@ -78,12 +78,15 @@ def is_needed(step: SelectionStep, model: Model, without: Model) -> bool:
 
     Such as an instant, a warming-up of which only the product of rise and rate shows, or a friction that one slow step
     of a staircase tells; not where that is one of several effects, or ended at a limit of the search. A line that
-    repeats with the angle makes any gap smaller that it was fitted to; and beside a motor whose own back-EMF is not
+    repeats with the angle makes any gap smaller that it was fitted to; one that is larger than ripples are, and goes
+    round more than once a turn, bends it as any curve over the place; and beside a motor whose own back-EMF is not
     determined, anything does. What came at no instant was no step, nor what has a size by chance where everything is
     explained without it.
     """
     effect = EFFECT_BY_NAME[step.found.effect]
-    if (model.held.seen and effect.periodic) or "kv" in model.uncertainty.not_identifiable:
+    if effect.periodic and (model.held.seen or is_no_ripple(model, effect.name)):
+        return False
+    if "kv" in model.uncertainty.not_identifiable:
         return False
     if has_vague_instant(effect.name, model) or (without.complete and is_chance_size(effect.name, model)):
         return False

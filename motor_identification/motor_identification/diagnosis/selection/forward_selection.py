@@ -150,12 +150,28 @@ def list_partners(tests: Sequence[CandidateTest]) -> list[CandidateTest]:
     return likely[: thresholds.PAIR_PARTNERS]
 
 
+def list_compromises(tests: Sequence[CandidateTest]) -> list[CandidateTest]:
+    """List the tests of what another effect comes with only: unlikely alone, though the gap falls.
+
+    So is the Coulomb friction of a motor that breaks away, which holds it too little and slows it too much.
+    """
+    falling = [test for test in tests if test.explains > thresholds.COMPROMISE_SHARE]
+    return [test for test in falling if test.evidence <= likelihood_threshold() and _list_dependent(test.effect)]
+
+
+def _list_dependent(effect: str) -> list[str]:
+    """List the effects that come with another one only."""
+    return [one.name for one in EFFECT_BY_NAME.values() if one.implies == effect]
+
+
 def find_pair(selection: Selection, tests: Sequence[CandidateTest], reporter: ProgressReporter) -> list[SelectionStep]:
     """Find the two effects that explain most together where neither does alone, as two steps, if there are such."""
     current, found = selection.model, []
-    for i, first in enumerate(list_partners(tests)):
+    partners, compromises = list_partners(tests), list_compromises(tests)
+    for i, first in enumerate([*partners, *compromises]):
         others = list_candidates(first.model.effects, current.held, current.beside_torque)
-        left = [effect for effect in others if not _is_periodic(effect)]
+        tried = others if i < len(partners) else _list_dependent(first.effect)
+        left = [effect for effect in others if effect in tried and not _is_periodic(effect)]
 
         def heard(test: CandidateTest, first: CandidateTest = first) -> None:
             reporter.report(f"{first.effect} with {test.effect}", 0.5, test.effect, test.model.held.gap)

@@ -316,6 +316,17 @@ def test_what_the_gap_shows_is_needed_though_its_errors_are_wide(
     assert not is_needed(found_step(without, at_sea, effect, rivals), at_sea, without)  # as anything is there
 
 
+@pytest.mark.parametrize("no_ripple", [True, False])
+def test_what_bends_the_motion_over_the_place_is_no_ripple_however_much_goes_with_it(
+    monkeypatch: pytest.MonkeyPatch, no_ripple: bool
+) -> None:
+    """A cart that a spring pulls back had a ripple of 10.5 V, of 10 ± 100 cycles a turn, in 0.02 rad."""
+    monkeypatch.setattr(determination, "find_limits_hit", lambda model: ())
+    monkeypatch.setattr(determination, "is_no_ripple", lambda model, effect: no_ripple)
+    model, without = stub_model(2.0, 0.0), stub_model(9.0, 0.0)
+    assert is_needed(found_step(without, model, "torque_ripple"), model, without) is not no_ripple
+
+
 @pytest.mark.parametrize(
     ("explained", "chance", "needed"), [(True, True, False), (True, False, True), (False, True, True)]
 )

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import stub_models
 from diagnosed import fitted
-from stub_models import StubModel, rescored, stub_held, stub_model, stub_test
+from stub_models import StubModel, rescored, stub_held, stub_model, stub_test, with_effects
 from stub_selections import selection_of, step_of
 
 from motor_identification.diagnosis import thresholds
@@ -17,6 +17,8 @@ from motor_identification.diagnosis.candidate_test import CandidateTest, likelih
 from motor_identification.diagnosis.effect_test import choose_finding
 from motor_identification.diagnosis.selection import forward_selection
 from motor_identification.diagnosis.selection.forward_selection import (
+    find_pair,
+    list_compromises,
     list_partners,
     may_hide_pair,
     select_forward,
@@ -38,6 +40,44 @@ def test_partners_are_likely_and_not_periodic_and_few() -> None:
     ripple, weak = stub_test("torque_ripple", before, 4.0, 500.0), stub_test("load_step", before, 4.9, BELOW * least)
     assert list_partners([ripple, *tests, weak]) == tests[: thresholds.PAIR_PARTNERS]
     assert list_partners([tests[1], tests[0], weak]) == tests[:2]
+
+
+@pytest.mark.parametrize(
+    ("effect", "evidence", "explains", "tried"),
+    [
+        ("coulomb_friction", -54.0, 1.01, ["static_friction"]),
+        ("coulomb_friction", -54.0, 0.99, []),
+        ("load_bias", -54.0, 1.01, []),  # nothing comes with it only
+        ("torque_ripple", -54.0, 1.01, []),
+    ],
+)
+def test_what_another_comes_with_is_tried_with_that_however_unlikely_alone(
+    monkeypatch: pytest.MonkeyPatch, effect: str, evidence: float, explains: float, tried: list[str]
+) -> None:
+    """A motor that breaks away: a Coulomb friction holds it too little, and slows it too much."""
+    before, share = stub_model(5.0), explains * thresholds.COMPROMISE_SHARE
+    first = stub_test(effect, before, sqrt(25.0 - share * 24.0), evidence)
+    first = replace(first, model=with_effects(first.model, effect))
+    second = stub_test("static_friction", first.model, 1.0, 300.0)
+    asked: list[str] = []
+
+    def try_effects(current: Model, hold_out: object, effects: list[str], *rest: object) -> list[CandidateTest]:
+        asked.extend(effects)
+        return [second] if "static_friction" in effects else []
+
+    monkeypatch.setattr(forward_selection, "try_effects", try_effects)
+    assert list_partners([first]) == []
+    found = find_pair(selection_of(before), [first], SILENT)
+    assert asked == tried
+    assert [step.found.effect for step in found] == ([effect, *tried] if tried else [])
+
+
+def test_what_is_likely_alone_is_no_compromise() -> None:
+    before, least = stub_model(5.0), likelihood_threshold()
+    for times, compromise in ((0.99, True), (1.01, False)):
+        test = stub_test("coulomb_friction", before, 4.0, times * least)
+        assert (list_compromises([test]) == [test]) is compromise
+        assert (list_partners([test]) == [test]) is not compromise
 
 
 def test_pairs_are_tried_above_the_floor_and_only_early() -> None:
