@@ -20,10 +20,12 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: small matric
 
 import numpy as np
 from foreign_logs_cases import EXCITATIONS, SENSORS, Case, draw, write
+from foreign_truth import measure_lead
 from machine import commit, machine
 from seeded_cases import run_seeds
 
 from motor_identification.diagnose import diagnose
+from motor_identification.diagnosis.candidate_test import likelihood_threshold
 from motor_identification.diagnosis.result import Diagnosis
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.imported import import_log
@@ -45,6 +47,12 @@ class Outcome:
     said: str
     error: float  # relative, of kv
     seconds: float  # of a processor
+    lead: float = np.nan  # of log likelihood, of what is hidden over what was named; where that is not all, or wrong
+
+    @property
+    def is_told(self) -> bool:
+        """Whether the log tells more than was named, as plainly as the diagnosis asks."""
+        return self.lead > likelihood_threshold()
 
 
 def judge(case: Case, found: Diagnosis) -> str:
@@ -81,14 +89,16 @@ def find(case: Case) -> Outcome:
             return Outcome(case, "refused", str(error).replace(str(path), "log.csv"), np.nan, process_time() - begun)
     said = " + ".join(" or ".join((one.effect, *one.ambiguous_with)) for one in found.findings) or "–"
     error = found.model.parameters.value("kv") / case.values["kv"] - 1.0
-    return Outcome(case, judge(case, found), f"{said} ({found.verdict.value})", error, process_time() - begun)
+    kind, seconds = judge(case, found), process_time() - begun
+    lead = np.nan if kind == "right" else measure_lead(runs, case.values, case.hidden, found)
+    return Outcome(case, kind, f"{said} ({found.verdict.value})", error, seconds, lead)
 
 
 def row(title: str, outcomes: list[Outcome]) -> str:
     """A row of the table."""
     count = Counter(one.kind for one in outcomes)
     errors = [abs(one.error) for one in outcomes if one.kind.startswith("right")]
-    cells = [str(count[kind]) for kind in KINDS]
+    cells = [str(count[kind]) for kind in KINDS] + [str(sum(one.is_told for one in outcomes))]
     cells += [f"{np.median(errors):.1%}" if errors else "–", f"{np.median([one.seconds for one in outcomes]):.0f} s"]
     return f"| {title} | {len(outcomes)} | " + " | ".join(cells) + " |"
 
@@ -109,10 +119,12 @@ def page(outcomes: list[Outcome], first: int, name: str, about: str) -> str:
         *about.splitlines()[1:],
         '"Right": all that is in the motor is named, or one of a few that the log cannot tell apart; "silent": nothing',
         "is named, which a single step or the size of an effect may deserve; wrong: a name whose effect is not there,",
-        'or "unexplained" where nothing is missing.',
+        'or "unexplained" where nothing is missing. "Told": of those that are not right, in how many the log tells more:',
+        "what is hidden, fitted from its true values, is likelier than what was named by more than a diagnosis asks of a",
+        f"finding ({likelihood_threshold():.1f} of log likelihood; of the others nobody could say more; not asked outside the table).",
         "",
-        f"| logs | number | {' | '.join(KINDS)} | error of kv where right | CPU time |",
-        "|---|---:|" + "---:|" * (len(KINDS) + 2),
+        f"| logs | number | {' | '.join(KINDS)} | told | error of kv where right | CPU time |",
+        "|---|---:|" + "---:|" * (len(KINDS) + 3),
         *(row(title, some) for title, some in groups.items() if some),
         "",
         "What was not right:",
@@ -121,7 +133,8 @@ def page(outcomes: list[Outcome], first: int, name: str, about: str) -> str:
     for one in sorted(outcomes, key=lambda one: -KINDS.index(one.kind)):
         if one.kind != "right":
             truth = " + ".join(one.case.hidden) or "nothing"
-            lines.append(f"- {one.case.seed}, {one.kind}: {one.said} for {truth} ({one.case.describe()})")
+            lead = "" if np.isnan(one.lead) else f"; likelier by {one.lead:.0f}"
+            lines.append(f"- {one.case.seed}, {one.kind}: {one.said} for {truth} ({one.case.describe()}{lead})")
     return "\n".join([*lines, ""])
 
 

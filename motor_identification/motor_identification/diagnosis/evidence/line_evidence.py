@@ -42,10 +42,11 @@ def drop_few_turns(tests: Sequence[CandidateTest]) -> list[CandidateTest]:
     """Drop what is on a disc of few turns, where a torque that goes with the angle is about as likely."""
     lines = [test for test in tests if EFFECT_BY_NAME[test.effect].periodic and not EFFECT_BY_NAME[test.effect].on_disc]
     most = max((test.evidence for test in lines), default=-inf) + thresholds.RIVAL_MARGIN
-    return [test for test in tests if test.evidence > most or not _has_few_turns(test)]
+    return [test for test in tests if test.evidence > most or not has_few_turns(test)]
 
 
-def _has_few_turns(test: CandidateTest) -> bool:
+def has_few_turns(test: CandidateTest) -> bool:
+    """Decide whether a test's effect is on a disc that comes round a few times only."""
     few = count_waves(test.model, test.effect) <= thresholds.LEAST_WAVES
     return EFFECT_BY_NAME[test.effect].on_disc and few
 
