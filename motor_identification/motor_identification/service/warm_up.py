@@ -13,6 +13,7 @@ from motor_identification.experiment import make_plan, simulate_plan
 from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.recording import Recording, recording_of
+from motor_identification.sensor.pulses.pulse_periods import find_slot_by_stays
 from motor_model import warm_up
 from motor_model.effects import EFFECTS
 from motor_model.excitation import profile
@@ -45,7 +46,11 @@ def main() -> None:
 
 
 def _look_for_the_rarest(recording: Recording) -> None:
-    """Look for jumps of the load beside a random torque, and for a bridge that slews: no diagnosis above gets there."""
+    """Look for jumps of the load beside a random torque, and for a bridge that slews: no diagnosis above gets there.
+
+    Nor does one where speeds may be over times between edges.
+    """
+    find_slot_by_stays(recording.time, recording.speed)
     estimate = Estimate(make_problem([recording], ()), np.log([PAPER_KV, PAPER_KA]))
     list_likely_jumps(estimate, ErrorModel(0.01, 0.0, 0.1, 0.05), 1)
     slew(recording, 1.0)

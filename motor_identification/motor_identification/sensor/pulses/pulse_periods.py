@@ -12,6 +12,7 @@ import numpy as np
 
 from motor_identification.recording import Bools, Floats, Integers
 from motor_identification.sensor.value_lattice import find_lattice
+from motor_model.compiled import compiled
 
 # Values that stayed for two rows or more, as long as the next one says. Measured: of 670 logs of other sensors four had
 # 8 of them, one had 20.
@@ -49,6 +50,7 @@ def find_slot_by_stays(time: Floats, speed: Floats) -> float:
         return 0.0
     low, high = np.quantile(np.abs(speed[changed]), ENDS) * float(np.median(np.diff(time)))
     slots = low * GRID ** np.arange(log(LONGEST * high / low) / log(GRID))
+    slots = slots[_may_tell(time, speed, slots)]
     stays = _measure_stays(time, speed, slots)
     most = max((stay.score for stay in stays if stay.tells), default=0.0)
     alike = [stay.tells and stay.score >= ALIKE * most for stay in stays]
@@ -139,6 +141,67 @@ class _Stays:
 def _list_changed(speed: Floats) -> Integers:
     """List the rows with another value than the one before, of a motor that turns."""
     return np.flatnonzero((np.diff(speed) != 0.0) & (speed[1:] != 0.0)) + 1
+
+
+def _may_tell(time: Floats, speed: Floats, slots: Floats) -> Bools:
+    """Mark the slots [rad] (S,) that may tell: of hundreds nearly all are refuted by how many values they explain."""
+    row, fine = float(np.median(np.diff(time))), np.abs(speed) >= STEPS * find_lattice(speed)
+    known = time, speed, _list_changed(speed), fine, np.cumsum(speed == 0.0), row
+    counts = np.array([_count_stays(*known, divide_slot(slot, speed)) for slot in slots]).reshape(-1, 3)
+    return np.asarray((counts[:, 0] >= FEWEST) & (counts @ np.array([1.0, -AGAINST, -1.0]) >= 0.0))
+
+
+@compiled
+def _count_stays(  # noqa: C901
+    time: Floats, speed: Floats, changed: Integers, fine: Bools, zeros: Integers, row: float, period: Floats
+) -> tuple[int, int, int]:
+    """Count what a slot explains, does not, and leaves open, as `_measure_stays_of` does, without its arrays.
+
+    fine: see there. zeros: rows up to each that stand. period: [s] that the slot takes at each row's speed.
+    """
+    held = against = left = 0
+    before, last, at, checked, fell = -1, -1, 0.0, -2, False
+    for k in changed:
+        earlier = fell if checked == k - 1 else _falls(time, period, k - 1, row)
+        checked, fell = k, _falls(time, period, k, row)
+        if earlier or fell:
+            continue
+        takes, now = period[k], time[k]
+        room = now - time[k - 1] + OFF * row + OFF_SLOT * takes
+        apart, as_said, fits, even = 0.0, False, False, False
+        stay = 0.0
+        if before >= 0 and zeros[before] == zeros[k] and speed[before] * speed[k] > 0.0:
+            stay = now - time[before]
+            late = stay - takes
+            fits = late < room and -late < time[before] - time[before - 1] + OFF * row + OFF_SLOT * takes
+        if last >= 0 and zeros[last] == zeros[k] and speed[last] * speed[k] > 0.0:
+            apart = now - at
+            late = apart - takes
+            as_said = late < room and -late < at - time[last - 1] + OFF * row + OFF_SLOT * takes
+        if as_said:
+            stay = apart
+        elif fits:
+            fits = apart < STAYED * row and abs(speed[last]) < abs(speed[before])
+        if last >= 0:
+            even = apart > takes and abs(takes - period[last]) < EVEN * takes
+        if fine[k]:
+            if takes > SLOW * row and apart > 0.0:
+                if as_said or fits:
+                    held += 1 if stay > STAYED * row else 0
+                elif not even:
+                    against += 1
+            elif apart > STAYED * row and not as_said and not even:
+                left += 1
+        before, last, at = last, k, now
+    return held, against, left
+
+
+@compiled
+def _falls(time: Floats, period: Floats, k: int, row: float) -> bool:
+    """Whether a row and the next show the time since the latest edge: see `mark_decays`."""
+    if k < 0 or k + 1 >= len(time) or period[k] <= 0.0 or period[k + 1] <= row:
+        return False
+    return bool(abs(period[k + 1] - period[k] - (time[k + 1] - time[k])) < EXACT * row)
 
 
 def _measure_stays(time: Floats, speed: Floats, slots: Floats) -> list[_Stays]:

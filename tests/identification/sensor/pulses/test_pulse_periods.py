@@ -15,6 +15,7 @@ from motor_identification.sensor.pulses.pulse_periods import (
     mark_decays,
     score_stays,
 )
+from motor_identification.sensor.value_lattice import find_lattice
 
 
 def logged(edges: int, rate: float, falls: bool = False) -> tuple[Floats, Floats]:
@@ -33,6 +34,20 @@ def test_rows_that_lack_now_and_then_tell_it_too() -> None:
     time, speed = logged(24, 500.0)
     kept = np.sort(np.random.default_rng(1).permutation(len(time))[: len(time) * 9 // 10])
     assert find_slot_by_stays(time[kept], speed[kept]) == pytest.approx(2.0 * np.pi / 24, rel=0.05)
+
+
+@pytest.mark.parametrize("falls", [False, True])
+@pytest.mark.parametrize("edges", [6, 48, 192])
+def test_counts_alone_are_those_of_the_whole_comparison(edges: int, falls: bool) -> None:
+    """A minute at 1 kHz is compared with hundreds of slots: all but a few are refuted without it."""
+    time, speed = logged(edges, 200.0, falls)
+    speed = np.round(speed, 1)
+    row, fine = float(np.median(np.diff(time))), np.abs(speed) >= pulse_periods.STEPS * find_lattice(speed)
+    known = time, speed, pulse_periods._list_changed(speed), fine, np.cumsum(speed == 0.0), row
+    slots = 2.0 * np.pi / edges * np.geomspace(0.2, 5.0, 30)
+    for slot, stay in zip(slots, pulse_periods._measure_stays(time, speed, slots), strict=True):
+        counts = pulse_periods._count_stays(*known, pulse_periods.divide_slot(slot, speed))
+        assert counts == (stay.held, stay.against, stay.open)
 
 
 def test_a_fast_motor_shows_none() -> None:
