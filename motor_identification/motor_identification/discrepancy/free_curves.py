@@ -40,7 +40,24 @@ class Reach:
 
 def hats(values: Floats, knots: NDArray[np.floating[Any]]) -> Floats:
     """Evaluate linear hat functions over knots (M,) at values (S,), shape (S, M); constant beyond the ends."""
-    return np.stack([np.interp(values, knots, unit) for unit in np.eye(len(knots))], axis=1)
+    each = np.zeros((len(values), len(knots)))
+    _fill_hats(values, np.asarray(knots, dtype=np.float64), each)
+    return each
+
+
+@compiled
+def _fill_hats(values: Floats, knots: Floats, each: Floats) -> None:
+    """Fill the two hats that a value is under: all others are 0 there."""
+    last = len(knots) - 1
+    for s in range(len(values)):
+        if values[s] <= knots[0]:
+            each[s, 0] = 1.0
+        elif values[s] >= knots[last]:
+            each[s, last] = 1.0
+        else:
+            k = min(np.searchsorted(knots, values[s], side="right"), last) - 1
+            part = (values[s] - knots[k]) * (1.0 / (knots[k + 1] - knots[k]))
+            each[s, k], each[s, k + 1] = 1.0 - part, part
 
 
 def log_hats(values: Floats, reach: tuple[float, float], unit: float) -> Floats:

@@ -35,6 +35,14 @@ def test_hats_add_up_to_one_and_stay_within() -> None:
     assert np.allclose(each[np.argmin(np.abs(values - 1.0))], [0.0, 0.0, 0.0, 1.0, 0.0], atol=0.05)
 
 
+def test_hats_are_what_interpolation_between_knots_gives() -> None:
+    random = np.random.default_rng(2)
+    for knots in (np.linspace(-3.0, 3.0, 25), np.append(0.0, np.geomspace(0.01, 1.0, 12))):
+        values = np.concatenate([random.uniform(knots[0] - 1.0, knots[-1] + 1.0, 500), knots, [np.inf, -np.inf]])
+        expected = np.stack([np.interp(values, knots, unit) for unit in np.eye(len(knots))], axis=1)
+        assert np.array_equal(hats(values, knots), expected)
+
+
 def test_a_response_is_the_lag_of_the_motor() -> None:
     torque = np.where(np.arange(COUNT) < 1000, 0.5, -0.2)
     travel = respond(history(), torque[:, None], Lag(RATE, KA))[0]
