@@ -82,11 +82,11 @@ class Problem:
         return self.unknowns.extent.sample
 
     def coarsen(self, samples: float) -> "Problem":
-        """The same problem with intervals joined to so many sample periods: quicker to search."""
+        """The same problem with intervals joined to so many sample periods, or thinned rows: quicker to search."""
         duration = samples * self.sample_period
         return replace(
             self,
-            intervals=tuple(join_intervals(data, duration) for data in self.intervals),
+            intervals=tuple(join_intervals(data, data.rows * duration) for data in self.intervals),
             coarseness=SEARCH_COARSENESS,
         )
 

@@ -4,6 +4,7 @@ A log of a minute at 1 kHz says no more of a motor of 20 ms than the means over 
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -31,7 +32,7 @@ def thin_out(recordings: Sequence[Recording], intervals: Sequence[Intervals]) ->
     if rows == 1:
         return tuple(intervals)
     pairs = zip(recordings, intervals, strict=True)
-    return tuple(join_intervals(data, rows * recording.sample_period) for recording, data in pairs)
+    return tuple(replace(join_intervals(data, rows * recording.sample_period), rows=rows) for recording, data in pairs)
 
 
 def count_joined(recordings: Sequence[Recording], intervals: Sequence[Intervals]) -> int:

@@ -42,6 +42,7 @@ class Intervals:
     unevenness: float = 1.0  # times as irregular as the flanks of one channel its slots may be
     window: float = 0.0  # [s] that each logged speed is a mean over; 0 between measured angles
     noise: float = 0.0  # [rad] what is known of a logged speed's noise, at either end of its window
+    rows: int = 1  # of the recording that were joined to one: of a long log, far quicker ones than the motion
 
     @property
     def unit(self) -> float:

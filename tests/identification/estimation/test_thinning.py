@@ -73,3 +73,14 @@ def test_only_who_asks_for_it_gets_a_thin_problem(monkeypatch: pytest.MonkeyPatc
     assert len(thinned.intervals[0].first) < 0.6 * len(whole.intervals[0].first)
     assert thinned.unknowns.effects == whole.unknowns.effects == effects
     assert (thinned.workers, whole.workers) == (2, 1)
+
+
+def test_a_quick_look_joins_thinned_rows_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Else it would be no quicker: eight rows that were joined are longer than the four that it looks at."""
+    monkeypatch.setattr(thinning, "ENOUGH", 500)
+    problem = make_problem([logged()], ())
+    thinned = thin_problem(problem)
+    rows = thinned.intervals[0].rows
+    assert rows > 1 and problem.intervals[0].rows == 1
+    for one in (problem, thinned):
+        assert 0.19 < len(one.coarsen(4.0).weight) / len(one.weight) < 0.3
