@@ -1,10 +1,15 @@
 """Segments of measured motion say what the motor did: speeds, voltages that act, standstill, what was before."""
 
+from dataclasses import replace
+
 import numpy as np
+import pytest
 from plant import profiles, record
+from recorded import as_speed
 
 from motor_identification.discrepancy.motion_history import LAGS, MotionHistory, make_history
 from motor_identification.measurement.build_intervals import make_intervals
+from motor_identification.measurement.edit_intervals import join_intervals
 from motor_identification.recording import Recording, check
 
 KV, KA, DELAY = 0.07, 0.0055, 0.008
@@ -71,3 +76,26 @@ def test_intervals_know_their_segments() -> None:
     data = make_intervals(recording)
     lengths = np.array([history.duration[a:b].sum() for a, b in zip(history.at_start, history.at_end, strict=True)])
     assert np.allclose(lengths, data.duration, atol=1e-9)
+
+
+def test_thinned_rows_have_segments_of_their_own_length_that_say_the_same() -> None:
+    """But where the command swings: there it is followed sample by sample."""
+    values = {"kv": KV, "ka": KA, "ks": 0.3}
+    drive = profiles.pieces([0.0, 6.0, 0.0, -6.0, 3.0], [0.5, 1.0, 1.0, 1.0, 1.0])
+    stamped, truth = record(values, *drive, seed=1, sample_rate=1000.0, edges=4096, single_channel=False)
+    noise = 0.01 * np.random.default_rng(3).standard_normal(len(stamped))
+    recording = check(replace(as_speed(stamped), voltage=stamped.voltage + noise))
+    data = make_intervals(recording)
+    thin = replace(join_intervals(data, 8 * recording.sample_period), rows=8)
+    every, fewer = (
+        make_history(recording, one, np.interp(one.time, truth.time, truth.angle), KV, DELAY) for one in (data, thin)
+    )
+    assert len(fewer.time) < 0.25 * len(every.time)
+    assert fewer.duration.sum() == pytest.approx(every.duration.sum(), abs=0.01)
+    for name in ("voltage", "speed", "drive"):
+        before, after = ((getattr(one, name) * one.duration).sum() for one in (every, fewer))
+        assert after == pytest.approx(before, abs=2e-3 * np.abs(getattr(every, name)).max())
+    for lag in (0, LAGS - 1):
+        before, after = ((one.past[:, lag] * one.duration).sum() for one in (every, fewer))
+        assert after == pytest.approx(before, abs=1e-4)
+    assert {-6, 6, 9} <= set(np.rint(fewer.past[:, 0]).astype(int))
