@@ -7,6 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from motor_identification.estimation.joined_commands import join_commands
 from motor_identification.estimation.parameter_space import Unknowns, make_unknowns
 from motor_identification.estimation.residual import Latest, simulate_residuals
 from motor_identification.measurement.build_intervals import make_intervals
@@ -47,9 +48,15 @@ class Problem:
 
     @cached_property
     def commands(self) -> tuple[tuple[Floats, Floats], ...]:
-        """Times [s] and voltages [V] at which each recording's command changes: a held one needs no step."""
+        """Times [s] and voltages [V] at which each recording's command changes: a held one needs no step.
+
+        Where rows are joined, so are their commands.
+        """
         changes = []
-        for recording in self.recordings:
+        for recording, data in zip(self.recordings, self.intervals, strict=True):
+            if data.rows > 1:
+                changes.append(join_commands(recording, data.rows))
+                continue
             kept = np.diff(recording.voltage, prepend=np.nan) != 0.0
             changes.append((recording.time[kept], recording.voltage[kept]))
         return tuple(changes)

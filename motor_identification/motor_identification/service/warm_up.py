@@ -8,6 +8,7 @@ from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis.evidence.slewing_evidence import slew
 from motor_identification.diagnosis.fits.torque_jumps import list_likely_jumps
 from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.joined_commands import join_commands
 from motor_identification.estimation.problem import make_problem
 from motor_identification.experiment import make_plan, simulate_plan
 from motor_identification.identify import Request, SearchConfig, identify
@@ -48,8 +49,9 @@ def main() -> None:
 def _look_for_the_rarest(recording: Recording) -> None:
     """Look for jumps of the load beside a random torque, and for a bridge that slews: no diagnosis above gets there.
 
-    Nor does one where speeds may be over times between edges.
+    Nor does one where rows are joined, or where speeds may be over times between edges.
     """
+    join_commands(recording, 2)
     find_slot_by_stays(recording.time, recording.speed)
     estimate = Estimate(make_problem([recording], ()), np.log([PAPER_KV, PAPER_KA]))
     list_likely_jumps(estimate, ErrorModel(0.01, 0.0, 0.1, 0.05), 1)

@@ -84,3 +84,12 @@ def test_a_quick_look_joins_thinned_rows_again(monkeypatch: pytest.MonkeyPatch) 
     assert rows > 1 and problem.intervals[0].rows == 1
     for one in (problem, thinned):
         assert 0.19 < len(one.coarsen(4.0).weight) / len(one.weight) < 0.3
+
+
+def test_only_a_thin_problem_joins_commands(monkeypatch: pytest.MonkeyPatch) -> None:
+    noise = 0.01 * np.random.default_rng(2).standard_normal(len(logged()))
+    whole = make_problem([check(replace(logged(), voltage=logged().voltage + noise))], ())
+    monkeypatch.setattr(thinning, "ENOUGH", 500)
+    thinned = thin_problem(whole)
+    (every, volts), (fewer, _mean) = whole.commands[0], thinned.commands[0]
+    assert len(every) == len(volts) == len(logged()) and len(fewer) < 0.3 * len(every)
