@@ -128,12 +128,21 @@ def _select_in_time(start: Selection, reporter: ProgressReporter, limit: TimeLim
     try:
         selected = _Selected(*_select(start, reporter), finished=True)
     except Stopped:
-        if not limit.reached or limit.best is None:
-            raise
-        limit.done = True  # what is left is to say it
-        return _Selected(drop_undetermined_at_once(drop_stand_ins(limit.best)), (), finished=False)
+        return _select_best(limit)
     limit.done = True
     return selected
+
+
+def _select_best(limit: TimeLimit[Selection]) -> _Selected:
+    """Select the best so far, where the time is used up.
+
+    Raises:
+        Stopped: it is not, or there is none: the caller wanted an end.
+    """
+    if not limit.reached or limit.best is None:
+        raise Stopped("the diagnosis was stopped.")
+    limit.done = True  # what is left is to say it
+    return _Selected(drop_undetermined_at_once(drop_stand_ins(limit.best)), (), finished=False)
 
 
 def _select_as_timed(
@@ -144,7 +153,12 @@ def _select_as_timed(
     What was not known yet may have been taken for another timing, which a lag then undoes: so it was where the new one
     leaves no more.
     """
-    start = begin_as_timed(first, find_timing_beside(first, first.selection), request, reporter.stopped)
+    limit.begin_with(first.selection)
+    try:
+        start = begin_as_timed(first, find_timing_beside(first, first.selection), request, reporter.stopped)
+    except Stopped:
+        return first, _select_best(limit)
+    limit.begin_with(start.selection)
     selected = _select_in_time(start.selection, reporter, limit)
     if start.timing is None or not selected.finished or not set(LAGS).intersection(selected.effects):
         return start, selected

@@ -70,6 +70,10 @@ class TimeLimit(Generic[R]):
         if self.best is None or self.is_better(result, self.best):
             self.best = result
 
+    def begin_with(self, result: R) -> None:
+        """Begin with a result, which from now on is the best so far; one from before may be of other data."""
+        self.best = result
+
     @property
     def reached(self) -> bool:
         """Whether the time is used up, and there is a result."""

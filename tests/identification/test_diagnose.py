@@ -11,6 +11,8 @@ from motor_identification.diagnose import Request, Stage, Stopped, diagnose
 from motor_identification.diagnosis.candidate_fit import validate_model
 from motor_identification.diagnosis.candidate_test import likelihood_threshold
 from motor_identification.diagnosis.result import Diagnosis, Verdict
+from motor_identification.diagnosis.selection.selection import Selection
+from motor_identification.diagnosis.start import Start
 from motor_identification.diagnosis.thresholds import FALSE_ALARM_RATE
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import make_problem
@@ -183,6 +185,20 @@ def test_the_stop_rule_keeps_its_word() -> None:
     assert likelihood_threshold() == pytest.approx(np.log(len(EFFECTS) / FALSE_ALARM_RATE))
     found = estimate_noise([(data, np.diff(edges[0]))])
     assert 0.006 < found.share < 0.016 and found.drift == 0.0
+
+
+def test_a_time_limit_ends_the_look_at_a_timing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It takes longer than a selection where a log has a hundred thousand rows; without it the first fit is known."""
+    recording, asked = made({"ks": 0.4}, profiles.staircase(10.0, 3, 0.3), 8), []
+
+    def look(first: Start, selection: Selection) -> None:
+        asked.append(selection is first.selection)
+        first.selection.hold_out.problem.raise_if_stopped()
+        asked.append("not stopped")
+
+    monkeypatch.setattr("motor_identification.diagnose.find_timing_beside", look)
+    hurried = diagnose([recording], request=Request(time_limit=1e-9))
+    assert asked == [True] and hurried.verdict is Verdict.UNDECIDED and hurried.time_limit == 1e-9
 
 
 def test_progress_stop_and_refusals() -> None:

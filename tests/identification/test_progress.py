@@ -66,6 +66,14 @@ def test_a_search_that_begins_again_has_the_time_that_is_left() -> None:
     assert not limit.begin_again() and limit.best == 2.0 and limit.done
 
 
+def test_what_a_search_begins_with_is_a_result() -> None:
+    limit = TimeLimit[float](0.0, lambda: False, lambda one, other: one < other, iter(range(9)).__next__)
+    assert not limit.over()
+    limit.keep(1.0)
+    limit.begin_with(2.0)
+    assert limit.best == 2.0 and limit.over()
+
+
 def test_what_is_done_at_the_end_goes_on_from_there() -> None:
     stages: list[Stage] = []
     late = ProgressReporter(stages.append, lambda: False).beyond(0.95)
