@@ -22,7 +22,11 @@ from motor_identification.diagnosis.result import Diagnosis
 from motor_identification.diagnosis.start import begin
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.request import Request
-from motor_identification.periodic.periodic_fit import add_periodic_effects, drop_periodic_effects
+from motor_identification.periodic.periodic_fit import (
+    add_load_once_a_turn,
+    add_periodic_effects,
+    drop_periodic_effects,
+)
 from motor_identification.recording import Recording
 from motor_identification.sensor.description import note_sensors
 from motor_identification.validation.hold_out import HoldOut
@@ -63,7 +67,10 @@ def _fit(bare: Model, hold_out: HoldOut, effects: Sequence[str], values: Mapping
     estimate = Estimate(problem, np.clip(theta, unknowns.low, unknowns.high), 0)
     model = fit_again(validate_model(hold_out, estimate), hold_out)
     if len(drop_periodic_effects(tuple(effects))) < len(effects):
-        model = validate_model(hold_out, add_periodic_effects(model.estimate, tuple(effects)))
+        lines = [add_periodic_effects(model.estimate, tuple(effects))]
+        if "torque_ripple" in effects and values.get("ripple_cycles", 1.0) == 1.0:
+            lines.append(add_load_once_a_turn(model.estimate))
+        model = max((validate_model(hold_out, line) for line in lines), key=lambda one: one.likelihood)
     model = judge_beside_torque(model, hold_out, None, thresholds.FINAL_EVALUATIONS)
     for _ in range(ROUNDS):
         refined = refine_beside_torque(model, hold_out)

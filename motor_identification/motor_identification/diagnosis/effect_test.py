@@ -16,7 +16,9 @@ from motor_identification.diagnosis.evidence.line_evidence import (
     is_heavy_load,
 )
 from motor_identification.diagnosis.fits.effect_fit import fit_with_effect
+from motor_identification.estimation.estimate import Estimate
 from motor_identification.measurement.command_swing import is_sweep
+from motor_identification.periodic.periodic_fit import add_load_once_a_turn
 from motor_identification.validation.held_out import HeldOut
 from motor_identification.validation.hold_out import HoldOut
 from motor_identification.validation.instants import (
@@ -84,15 +86,23 @@ def _try_effect(current: Model, hold_out: HoldOut, effect: str, least: float) ->
     larger = fit_with_effect(current.estimate, effect, least, current.learned)
     if larger is None:
         return CandidateTest(effect, current, current)
-    if EFFECT_BY_NAME[effect].periodic:  # it may turn the shaft back where the model without it does not
-        own = hold_out.correct_directions(larger)
-        return CandidateTest(
-            effect, validate_model(own, current.estimate, current), validate_model(own, larger, current)
-        )
+    if EFFECT_BY_NAME[effect].periodic:
+        return _compare_periodic(current, hold_out, effect, larger)
     test = CandidateTest(effect, current, validate_model(hold_out, larger, current))
     if current.beside_torque and (test.evidence > 0.0 or test.is_held_back):
         test = replace(test, model=_refine(test.model, hold_out))
     return replace(test, model=split_kv(test.model, hold_out)) if EFFECT_BY_NAME[effect].splits_kv else test
+
+
+def try_load_once_a_turn(current: Model, hold_out: HoldOut) -> CandidateTest:
+    """Fit and validate a model with a torque that goes round once a turn more: the other word for what a disc does."""
+    return _compare_periodic(current, hold_out, "torque_ripple", add_load_once_a_turn(current.estimate))
+
+
+def _compare_periodic(current: Model, hold_out: HoldOut, effect: str, larger: Estimate) -> CandidateTest:
+    """Compare both on held-out motion in directions of the larger one, which may turn the shaft back elsewhere."""
+    own = hold_out.correct_directions(larger)
+    return CandidateTest(effect, validate_model(own, current.estimate, current), validate_model(own, larger, current))
 
 
 def _refine(model: Model, hold_out: HoldOut) -> Model:

@@ -120,9 +120,13 @@ SAME_MOTION = 0.01
 # a torque of 0.04 V, in a motor that swung to and fro; 4.6 of 1,924 cycles a turn in strokes of 0.015 rad of a real
 # motor, where friction had another shape at its reversals; 35 and more for ripples that were there.
 LEAST_WAVES, MANY_WAVES = 6.0, 30.0
-# Turns, at least, of an eccentric disc that takes away most of what is left (`MOST_OF_GAP`). Measured: 0.95 to 1.1 of
-# three in motions of 1.2 to 3.8 turns, likelier by 72 to 179; where there is none, 52 and 0.36 of it in 5.4 turns.
+# Turns, at least, of an eccentric disc that takes away most of what is left (`MOST_OF_GAP`), and is likelier than a
+# load that goes round with it. Measured: 1.0 to 1.2 of it for three in 1.2 to 3.8 turns, likelier by 179 to 1,073 and than
+# such a load by 190 and more; a friction that goes with the angle was likelier as a load by 402, in 3.9 turns.
 LEAST_TURNS = 1.0
+# The same of a load that goes round once a turn, and of the excess over the floor, what it takes away at least.
+# Measured: 0.99 of that friction; whatever has other cycles may be any slow torque.
+LEAST_TURNS_OF_LOAD, NEARLY_ALL_OF_GAP = 3.0, 0.9
 # Likelihoods that the search for a candidate's errors may ask for, and that for a model's to begin with.
 CANDIDATE_EVALUATIONS, FINAL_EVALUATIONS = 40, 120
 # How often a candidate is fitted beside the torque that it leaves itself, at most: each leaves less of one. And of log

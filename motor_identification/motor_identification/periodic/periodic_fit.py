@@ -82,6 +82,14 @@ def add_periodic_effect(bare: Estimate, effect: str, least: float = 0.0, freely:
     return replace(_best(fits), simulations=spent) if fits else None
 
 
+def add_load_once_a_turn(bare: Estimate) -> Estimate:
+    """Extend a fit by a torque that goes round once a turn, however few turns there are, on measured angles."""
+    effects = (*bare.problem.unknowns.effects, "torque_ripple")
+    load = fit_ripple(bare, measure_angles(bare, effects), 1.0)
+    begin = _begin(bare, effects, Start(load.tracks, _list_values(load.amplitude, 1.0, load.phases)))
+    return fit_speeds(begin, iterations=ITERATIONS, tolerance=TOLERANCE)
+
+
 def _begin(bare: Estimate, effects: tuple[str, ...], start: Start) -> Estimate:
     """An estimate with more effects, not fitted yet, on measured angles."""
     trial = replace(bare.problem.with_effects(effects), tracks=start.tracks)

@@ -20,12 +20,15 @@ from motor_identification.diagnosis.effect_test import (
     list_candidates,
     sort_by_table,
     try_effects,
+    try_load_once_a_turn,
 )
 from motor_identification.diagnosis.evidence.likeness import find_rivals
 from motor_identification.diagnosis.evidence.line_evidence import adds_only_lines, count_waves
+from motor_identification.diagnosis.start import begin
 from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.request import Request
 from motor_identification.noise.error_model import ErrorModel
-from motor_identification.recording import Floats, Recording
+from motor_identification.recording import Floats, Recording, check
 from motor_identification.validation.hold_out import HoldOut
 from motor_model.effects import EFFECTS
 
@@ -275,3 +278,19 @@ def test_a_candidate_is_fitted_beside_the_torque_that_it_leaves_as_long_as_that_
     (test,) = try_effects(whole, cast(HoldOut, object()), ["direction_asymmetry"], 1, lambda test: None)
     assert len(fitted_again) == fits
     assert test.evidence == pytest.approx(evidence + sum(gains[:fits]))
+
+
+def test_a_torque_once_a_turn_is_told_from_a_disc_however_few_turns_there_are() -> None:
+    """The spectrum promises next to nothing of so few waves."""
+    time = 0.01 * np.arange(800)
+    volts = np.repeat([3.0, 6.0, 4.0, 7.0], 200)
+    load = {"ripple_voltage": 1.2, "ripple_cycles": 1.0, "ripple_phase": 0.3}
+    start = begin([check(record({"kv": 2.0, "ka": 0.2, **load}, time, volts, seed=1)[0])], (), Request(), bool)
+    current, hold_out = start.selection.model, start.selection.hold_out
+    assert 1.0 < current.turns < thresholds.LEAST_WAVES
+    test = try_load_once_a_turn(current, hold_out)
+    (disc,) = try_effects(current, hold_out, ["encoder_eccentricity"], 1, lambda test: None)
+    assert test.evidence > disc.evidence + thresholds.RIVAL_MARGIN
+    found = test.model.estimate.parameters
+    assert found.value("ripple_voltage") == pytest.approx(1.2, rel=0.05)
+    assert found.value("ripple_cycles") == pytest.approx(1.0, abs=0.02)

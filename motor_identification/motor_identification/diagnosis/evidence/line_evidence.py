@@ -29,13 +29,15 @@ def has_waves(test: CandidateTest) -> bool:
     """Decide whether a test's effect comes back over the angle as often as it must, if it repeats at all.
 
     What is on the disc moves no motor: it is in step with the angle at once, where a torque lags behind. So one turn
-    is enough where it takes away most of what is left.
+    is enough where it takes away most of what is left, and some turns of a load that takes away nearly all.
     """
     waves = count_waves(test.model, test.effect)
     if waves > thresholds.LEAST_WAVES:
         return True
-    disc = EFFECT_BY_NAME[test.effect].on_disc
-    return disc and waves > thresholds.LEAST_TURNS and test.explains > thresholds.MOST_OF_GAP
+    if EFFECT_BY_NAME[test.effect].on_disc:
+        return waves > thresholds.LEAST_TURNS and test.explains > thresholds.MOST_OF_GAP
+    nearly_all = waves > thresholds.LEAST_TURNS_OF_LOAD and test.explains > thresholds.NEARLY_ALL_OF_GAP
+    return nearly_all and _goes_once_a_turn(test.model, test.effect)
 
 
 def drop_few_turns(tests: Sequence[CandidateTest]) -> list[CandidateTest]:

@@ -17,6 +17,7 @@ from motor_identification.diagnosis.effect_test import (
     is_supported,
     list_candidates,
     try_effects,
+    try_load_once_a_turn,
 )
 from motor_identification.diagnosis.evidence.likeness import find_rivals
 from motor_identification.diagnosis.evidence.line_evidence import has_few_turns
@@ -107,8 +108,8 @@ def _may_add_pair(selection: Selection) -> bool:
 def _try_all_effects(selection: Selection, reporter: ProgressReporter) -> list[CandidateTest]:
     """Try every effect that the model lacks, where a finding could be made at all.
 
-    Those that repeat with the angle only where others leave a gap; slots learnt without them hide it. Of few turns, a
-    torque that goes with them is tried however little its spectrum promises: a disc has to be likelier.
+    Those that repeat with the angle only where others leave a gap; slots learnt without them hide it. Beside a disc of
+    few turns a torque that goes round with it is tried whatever its spectrum promises: the disc has to be likelier.
     """
     number, current = len(selection.steps) + 1, selection.model
     left = list_candidates(current.effects, current.held, current.beside_torque)
@@ -128,8 +129,10 @@ def _try_all_effects(selection: Selection, reporter: ProgressReporter) -> list[C
     if best is None or best.model.above_floor:
         periodic = filter(_is_periodic, left)
         for effect in sorted(periodic, key=count_parameters):  # an eccentricity is a line in a ripple's spectrum too
-            least = 0.0 if any(map(has_few_turns, tests)) else max((test.evidence for test in tests), default=0.0)
+            least = max((test.evidence for test in tests), default=0.0)
             tests += try_effects(current, selection.hold_out, [effect], selection.workers, heard, max(least, 0.0))
+        if "torque_ripple" in left and any(has_few_turns(test) and is_supported(test) for test in tests):
+            tests.append(try_load_once_a_turn(current, selection.hold_out))
     return sorted(tests, key=lambda test: -test.evidence)
 
 
