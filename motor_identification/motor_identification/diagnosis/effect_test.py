@@ -18,7 +18,7 @@ from motor_identification.diagnosis.evidence.line_evidence import (
 from motor_identification.diagnosis.fits.effect_fit import fit_with_effect
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.measurement.command_swing import is_sweep
-from motor_identification.periodic.periodic_fit import add_load_once_a_turn
+from motor_identification.periodic.periodic_fit import LOAD_OVER_ANGLE, add_load_once_a_turn
 from motor_identification.validation.held_out import HeldOut
 from motor_identification.validation.hold_out import HoldOut
 from motor_identification.validation.instants import (
@@ -96,7 +96,7 @@ def _try_effect(current: Model, hold_out: HoldOut, effect: str, least: float) ->
 
 def try_load_once_a_turn(current: Model, hold_out: HoldOut) -> CandidateTest:
     """Fit and validate a model with a torque that goes round once a turn more: the other word for what a disc does."""
-    return _compare_periodic(current, hold_out, "torque_ripple", add_load_once_a_turn(current.estimate))
+    return _compare_periodic(current, hold_out, LOAD_OVER_ANGLE, add_load_once_a_turn(current.estimate))
 
 
 def _compare_periodic(current: Model, hold_out: HoldOut, effect: str, larger: Estimate) -> CandidateTest:

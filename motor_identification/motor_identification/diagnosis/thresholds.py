@@ -121,8 +121,8 @@ SAME_MOTION = 0.01
 # motor, where friction had another shape at its reversals; 35 and more for ripples that were there.
 LEAST_WAVES, MANY_WAVES = 6.0, 30.0
 # Turns, at least, of an eccentric disc that takes away most of what is left (`MOST_OF_GAP`), and is likelier than a
-# load that goes round with it. Measured: 1.0 to 1.2 of it for three in 1.2 to 3.8 turns, likelier by 179 to 1,073 and than
-# such a load by 190 and more; a friction that goes with the angle was likelier as a load by 402, in 3.9 turns.
+# load that goes round with it. Measured: 1.0 to 1.2 of it for three in 1.2 to 3.8 turns, likelier by 179 to 1,073 and
+# than such a load by 190 and more; a friction that goes with the angle was likelier as a load by 402, in 3.9 turns.
 LEAST_TURNS = 1.0
 # The same of a load that goes round once a turn, and of the excess over the floor, what it takes away at least.
 # Measured: 0.99 of that friction; whatever has other cycles may be any slow torque.

@@ -22,6 +22,8 @@ PERIODIC_ROUNDS = 2  # the second time, the motor that bridges the gaps of the m
 WAVE_ROUNDS = 5  # of the noise that a wave and its slips leave
 ITERATIONS, TOLERANCE = 25, 1e-8  # of a descent on measured angles
 
+LOAD_OVER_ANGLE = "torque_ripple"  # of the effects, the torque that goes with the angle
+
 Tracks = tuple[Track, ...]
 
 
@@ -84,7 +86,7 @@ def add_periodic_effect(bare: Estimate, effect: str, least: float = 0.0, freely:
 
 def add_load_once_a_turn(bare: Estimate) -> Estimate:
     """Extend a fit by a torque that goes round once a turn, however few turns there are, on measured angles."""
-    effects = (*bare.problem.unknowns.effects, "torque_ripple")
+    effects = (*bare.problem.unknowns.effects, LOAD_OVER_ANGLE)
     load = fit_ripple(bare, measure_angles(bare, effects), 1.0)
     begin = _begin(bare, effects, Start(load.tracks, _list_values(load.amplitude, 1.0, load.phases)))
     return fit_speeds(begin, iterations=ITERATIONS, tolerance=TOLERANCE)

@@ -27,6 +27,7 @@ from motor_identification.diagnosis.selection.promised_pairs import (
     promises_anything,
 )
 from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
+from motor_identification.periodic.periodic_fit import LOAD_OVER_ANGLE
 from motor_identification.progress import ProgressReporter
 from motor_model.effects import EFFECT_BY_NAME
 
@@ -131,7 +132,7 @@ def _try_all_effects(selection: Selection, reporter: ProgressReporter) -> list[C
         for effect in sorted(periodic, key=count_parameters):  # an eccentricity is a line in a ripple's spectrum too
             least = max((test.evidence for test in tests), default=0.0)
             tests += try_effects(current, selection.hold_out, [effect], selection.workers, heard, max(least, 0.0))
-        if "torque_ripple" in left and any(has_few_turns(test) and is_supported(test) for test in tests):
+        if LOAD_OVER_ANGLE in left and any(has_few_turns(test) and is_supported(test) for test in tests):
             tests.append(try_load_once_a_turn(current, selection.hold_out))
     return sorted(tests, key=lambda test: -test.evidence)
 
