@@ -78,6 +78,14 @@ def test_what_is_not_determined_is_undecided_and_no_finding(gap: float, found: b
     assert verdict is Verdict.UNDECIDED and profile == EFFECT_BY_NAME["transport_delay"].shown_by
 
 
+@pytest.mark.parametrize(("times", "verdict"), [(0.99, Verdict.EXPLAINED), (1.01, Verdict.UNDECIDED)])
+def test_what_no_torque_leaves_in_few_moments_is_undecided(times: float, verdict: Verdict) -> None:
+    """Ten runs of a motor, each of which began late by another time, beside one dead time for all."""
+    model = replace(stub_model(times * thresholds.MOMENTS_GAP), random=True)
+    assert model.complete and model.noise_floor == pytest.approx(1.0)
+    assert decide((finding(),), chosen(model), ()) == (verdict, "")
+
+
 def test_a_lag_that_may_be_of_the_sensor_is_undecided() -> None:
     lag = replace(finding(), effect="armature_inductance")
     assert [one.sensor_may_lag for one in doubt_lags((finding(), lag))] == [False, True]
