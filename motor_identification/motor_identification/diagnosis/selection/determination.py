@@ -103,13 +103,14 @@ def is_steady_beside_torque(step: SelectionStep, selection: Selection, without: 
     that is left. Of an effect that bends what others do a standard error says little: a share of 1.00 ± 0.33.
     """
     effect, model = step.found.effect, selection.model
-    if step.rivals or EFFECT_BY_NAME[effect].periodic or needs_instant(effect) or not is_chance_size(effect, model):
+    if not model.beside_torque or step.rivals or EFFECT_BY_NAME[effect].periodic or needs_instant(effect):
         return False
-    if not model.beside_torque:
+    chance = is_chance_size(effect, model)
+    if not (chance or is_undetermined(effect, model.uncertainty.not_identifiable)):  # but for a limit that it ended at
         return False
     steadiness = CandidateTest(effect, without.model, model).steadiness
     told = count_errors_beside_torque(effect, model) > thresholds.STEADY_BESIDE_TORQUE
-    return steadiness > (likelihood_threshold() if told else thresholds.STEADY_LIKELIHOOD)
+    return (told and steadiness > likelihood_threshold()) or (chance and steadiness > thresholds.STEADY_LIKELIHOOD)
 
 
 def _replace_by_rival(selection: Selection, step: SelectionStep, without: Model) -> Selection | None:

@@ -140,16 +140,24 @@ def test_what_the_motion_speaks_for_all_the_time_is_told_beside_a_torque(
     problem = SimpleNamespace(unknowns=SimpleNamespace(names=(own.name,)))
     fit, limit = SimpleNamespace(problem=problem, theta=np.array([own.off + 0.3])), thresholds.STEADY_BESIDE_TORQUE
     beside = None if sigma is None else (fit, known(0.3 / (sigma * limit)))
-    model = SimpleNamespace(told_beside_torque=beside, beside_torque=True)
-    monkeypatch.setattr(determination, "is_chance_size", lambda *_: True)
-    monkeypatch.setattr(CandidateTest, "steadiness", steadiness)
     step = cast(SelectionStep, SimpleNamespace(found=SimpleNamespace(effect=effect), rivals=rivals))
-    selection = cast(Selection, SimpleNamespace(model=model))
-    assert is_steady_beside_torque(step, selection, selection) is told
-    alone = cast(Selection, SimpleNamespace(model=SimpleNamespace(told_beside_torque=beside, beside_torque=False)))
-    assert not is_steady_beside_torque(step, alone, alone)
+
+    def steady(unknown: tuple[str, ...] = (), beside_torque: bool = True) -> bool:
+        model = SimpleNamespace(
+            told_beside_torque=beside,
+            beside_torque=beside_torque,
+            uncertainty=SimpleNamespace(not_identifiable=unknown),
+        )
+        selection = cast(Selection, SimpleNamespace(model=model))
+        return is_steady_beside_torque(step, selection, selection)
+
+    monkeypatch.setattr(CandidateTest, "steadiness", steadiness)
+    monkeypatch.setattr(determination, "is_chance_size", lambda *_: True)
+    assert steady() is told
+    assert not steady(beside_torque=False)
     monkeypatch.setattr(determination, "is_chance_size", lambda *_: False)
-    assert not is_steady_beside_torque(step, selection, selection)
+    assert not steady()  # it ended at a limit of the search
+    assert steady((own.name,)) is (told and sigma is not None)
 
 
 def known(error: float) -> Any:
