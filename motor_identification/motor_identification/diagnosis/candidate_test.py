@@ -158,10 +158,12 @@ def predicts_far_worse(beside: float, plain: float) -> bool:
 def takes_away_more(model: Model, plain: Model) -> bool:
     """Decide whether a model beside a random torque has what is there, beyond one that the sensor's floor explains.
 
-    A torque was learned; or there is more than a lag, which may be of the recording; or that takes away of the gap.
+    A torque was learned; or there is more than a lag, which may be of the recording; or that takes away of the gap, or
+    of what lasts of it.
     """
     more = set(model.effects) - set(plain.effects) - set(LAGS)
     shrinks = model.held.gap < thresholds.SHRINKING_GAP * plain.held.gap
+    shrinks = shrinks or model.lasting.gap < thresholds.SHRINKING_LASTING_GAP * plain.lasting.gap
     return model.errors.rms_voltage > 0.0 or shrinks or bool(more)
 
 

@@ -156,6 +156,15 @@ def test_a_lag_beside_no_torque_has_to_take_away_of_the_gap(
     assert takes_away_more(model, plain) is taken
 
 
+@pytest.mark.parametrize(("falls", "taken"), [(1.001, False), (0.999, True)])
+def test_a_lag_may_take_away_of_what_lasts_alone(monkeypatch: pytest.MonkeyPatch, falls: float, taken: bool) -> None:
+    """From row to row a coarse sensor hides it."""
+    plain, model = stub_model(2.0, 1.0), stub_model(2.0, thresholds.SHRINKING_LASTING_GAP * falls)
+    effects: dict[int, Any] = {id(model): ("armature_inductance",)}
+    monkeypatch.setattr(StubModel, "effects", property(lambda self: effects.get(id(self), ())))
+    assert takes_away_more(model, plain) is taken
+
+
 @pytest.mark.parametrize(
     ("effect", "falls", "relevant"),
     [
