@@ -133,8 +133,15 @@ def _try_all_effects(selection: Selection, reporter: ProgressReporter) -> list[C
             least = max((test.evidence for test in tests), default=0.0)
             tests += try_effects(current, selection.hold_out, [effect], selection.workers, heard, max(least, 0.0))
         if LOAD_OVER_ANGLE in left and any(has_few_turns(test) and is_supported(test) for test in tests):
-            tests.append(try_load_once_a_turn(current, selection.hold_out))
+            tests = _keep_better(tests, try_load_once_a_turn(current, selection.hold_out))
     return sorted(tests, key=lambda test: -test.evidence)
+
+
+def _keep_better(tests: Sequence[CandidateTest], again: CandidateTest) -> list[CandidateTest]:
+    """Keep the better of two tests of an effect, of which one is among all tests."""
+    same = [test for test in (*tests, again) if test.effect == again.effect]
+    others = [test for test in tests if test.effect != again.effect]
+    return [*others, max(same, key=lambda test: test.evidence)]
 
 
 def _list_promised(selection: Selection) -> list[str]:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import stub_models
 from diagnosed import fitted
+from plant import record
 from stub_models import StubModel, rescored, stub_held, stub_model, stub_test, with_effects
 from stub_selections import selection_of, step_of
 
@@ -25,8 +26,11 @@ from motor_identification.diagnosis.selection.forward_selection import (
     verify_findings,
 )
 from motor_identification.diagnosis.selection.selection import Selection, SelectionStep, begin_selection
+from motor_identification.diagnosis.start import begin
+from motor_identification.estimation.request import Request
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter, Stage
+from motor_identification.recording import check
 
 BELOW, ABOVE = 0.999, 1.001
 AT, OVER = 0.999 * thresholds.EXPLAINED_GAP, 1.2 * thresholds.EXPLAINED_GAP  # of a gap, the floor being 1
@@ -251,3 +255,24 @@ def test_two_that_are_promised_together_are_selected_beside_a_torque(
     pair = [step_of(first), step_of(stub_test("quadratic_drag", first.model, 0.9, 100.0), explains=1.0)]
     monkeypatch.setattr(forward_selection, "find_promised_pair", lambda selection: [] if selection.steps else pair)
     assert list(select_forward(selection_of(start), SILENT).steps) == (pair if beside else [])
+
+
+def test_a_load_once_a_turn_is_no_disc_in_few_turns(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The spectrum promises less of it than the disc gains, which is then likely and takes away most."""
+    time = 0.01 * np.arange(800)
+    volts = np.repeat([3.0, 6.0, 4.0, 7.0], 200)
+    load = {"ripple_voltage": 1.2, "ripple_cycles": 1.0, "ripple_phase": 0.3}
+    run = check(record({"kv": 2.0, "ka": 0.2, **load}, time, volts, seed=1)[0])
+    start = begin([run], (), Request(), bool).selection
+    tests: list[CandidateTest] = []
+
+    def choose(tried: list[CandidateTest]) -> CandidateTest | None:
+        tests[:] = tried
+        return None
+
+    monkeypatch.setattr(forward_selection, "choose_finding", choose)
+    monkeypatch.setattr(forward_selection, "find_pair", lambda *_: [])
+    select_forward(start, SILENT)
+    lines = {test.effect: test.evidence for test in tests if test.effect in ("torque_ripple", "encoder_eccentricity")}
+    assert len(lines) == 2 and sum(test.effect == "torque_ripple" for test in tests) == 1
+    assert lines["torque_ripple"] > lines["encoder_eccentricity"] > likelihood_threshold()
