@@ -124,6 +124,15 @@ def test_what_the_readme_says_of_simulated_motors_is_what_the_pages_have() -> No
         assert row.endswith(f" | {right} of {every} | {less} | {wrong} |") and sum((right, less, wrong)) == every
 
 
+def test_what_the_readme_says_of_logs_that_tell_no_more_is_what_the_pages_have() -> None:
+    every = told = 0
+    for page in ("foreign_logs.md", "foreign_loggers.md", "foreign_effects.md", "foreign_periods.md"):
+        number, right, *_, likelier = column_sums(page, r"^\| all \|" + 7 * r" (\d+) \|")
+        every, told = every + number - right, told + likelier
+    assert f"of the {every} logs of other people that were not named exactly, in {told} what is hidden" in README
+    assert told < every
+
+
 def test_every_command_belongs_to_a_part() -> None:
     parts = {name: commands_of(name) for name in PARTS}
     assert sorted(sum(parts.values(), [])) == sorted(set(COMMANDS) - set(SCRIPTS)) and min(map(len, parts.values())) > 2
