@@ -80,7 +80,7 @@ def closed_loop() -> None:
     recorder = subprocess.Popen(command, cwd=OUT, stdout=subprocess.PIPE, text=True)
     assert recorder.stdout is not None
     print(recorder.stdout.readline(), end="", flush=True)  # it is listening now
-    run(f'ros2 topic pub --once -w 2 /motor/reference std_msgs/msg/Float64 "{{data: {REFERENCE}}}"')
+    run(f'ros2 topic pub --once -w 2 --keep-alive 1 /motor/reference std_msgs/msg/Float64 "{{data: {REFERENCE}}}"')
     print(recorder.communicate(timeout=30.0)[0].strip())
     if recorder.returncode != 0:
         sys.exit("demo: the recorder failed.")
