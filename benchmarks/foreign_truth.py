@@ -11,18 +11,15 @@ from math import log, nan
 import numpy as np
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_fit import (
-    fit_again,
-    judge_beside_torque,
-    refine_beside_torque,
-    validate_model,
-)
+from motor_identification.diagnosis.candidate_fit import fit_again, judge_beside_torque, validate_model
 from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.effect_test import refine_repeatedly
 from motor_identification.diagnosis.result import Diagnosis
 from motor_identification.diagnosis.start import begin
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.request import Request
 from motor_identification.periodic.periodic_fit import (
+    LOAD_OVER_ANGLE,
     add_load_once_a_turn,
     add_periodic_effects,
     drop_periodic_effects,
@@ -68,13 +65,8 @@ def _fit(bare: Model, hold_out: HoldOut, effects: Sequence[str], values: Mapping
     model = fit_again(validate_model(hold_out, estimate), hold_out)
     if len(drop_periodic_effects(tuple(effects))) < len(effects):
         lines = [add_periodic_effects(model.estimate, tuple(effects))]
-        if "torque_ripple" in effects and values.get("ripple_cycles", 1.0) == 1.0:
+        if LOAD_OVER_ANGLE in effects and values.get("ripple_cycles", 1.0) == 1.0:
             lines.append(add_load_once_a_turn(model.estimate))
         model = max((validate_model(hold_out, line) for line in lines), key=lambda one: one.likelihood)
     model = judge_beside_torque(model, hold_out, None, thresholds.FINAL_EVALUATIONS)
-    for _ in range(ROUNDS):
-        refined = refine_beside_torque(model, hold_out)
-        if refined.likelihood < model.likelihood + thresholds.TIE_LIKELIHOOD:
-            break
-        model = refined
-    return model.likelihood
+    return refine_repeatedly(model, hold_out, ROUNDS).likelihood

@@ -90,7 +90,7 @@ def _try_effect(current: Model, hold_out: HoldOut, effect: str, least: float) ->
         return _compare_periodic(current, hold_out, effect, larger)
     test = CandidateTest(effect, current, validate_model(hold_out, larger, current))
     if current.beside_torque and (test.evidence > 0.0 or test.is_held_back):
-        test = replace(test, model=_refine(test.model, hold_out))
+        test = replace(test, model=refine_repeatedly(test.model, hold_out))
     return replace(test, model=split_kv(test.model, hold_out)) if EFFECT_BY_NAME[effect].splits_kv else test
 
 
@@ -105,9 +105,9 @@ def _compare_periodic(current: Model, hold_out: HoldOut, effect: str, larger: Es
     return CandidateTest(effect, validate_model(own, current.estimate, current), validate_model(own, larger, current))
 
 
-def _refine(model: Model, hold_out: HoldOut) -> Model:
+def refine_repeatedly(model: Model, hold_out: HoldOut, rounds: int = thresholds.REFINEMENTS) -> Model:
     """Refine a model beside the torque that it leaves, and as long as it leaves less of one and is likelier for it."""
-    for _ in range(thresholds.REFINEMENTS):
+    for _ in range(rounds):
         refined = refine_beside_torque(model, hold_out)
         gained, model = refined.likelihood - model.likelihood, refined
         if gained < thresholds.TIE_LIKELIHOOD:

@@ -1,24 +1,15 @@
 """What was logged after a motor had lost its supply is left out, and no standstill that is its friction's."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from driven_rows import LEVELS, SPEED, logged
 
-from motor_identification.logs.form import CsvForm, Kind
+from motor_identification.logs.form import Kind
 from motor_identification.logs.rows.drive.unpowered_end import FEWEST, drop_unpowered_end
 from motor_identification.logs.rows.drive.unpowered_start import FEWEST_CHANGES, ROWS
 from motor_identification.logs.signals import Floats, Signals
-
-LEVELS = np.tile([2.0, 5.0, 1.0, 4.0], 30)  # V, for ten rows each
-SPEED = CsvForm("t", "u", "y", Kind.SPEED, "rad/s")
-
-
-def logged(volts: Floats, speed: Floats) -> Signals:
-    count = len(volts)
-    unknown, time = np.full(count, np.nan), np.arange(count) * 10_000_000
-    return Signals(Path("log.csv"), np.arange(count), time, volts, speed, unknown, unknown, {"": slice(0, count)})
 
 
 def tripped(ran: int, volts: Floats) -> Signals:
