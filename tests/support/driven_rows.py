@@ -11,8 +11,8 @@ LEVELS = np.tile([2.0, 5.0, 1.0, 4.0], 30)  # V, for ten rows each
 SPEED = CsvForm("t", "u", "y", Kind.SPEED, "rad/s")
 
 
-def logged(volts: Floats, speed: Floats) -> Signals:
+def logged(volts: Floats, motion: Floats) -> Signals:
     """One run of so many rows."""
     count = len(volts)
     unknown, time = np.full(count, np.nan), np.arange(count) * 10_000_000
-    return Signals(Path("log.csv"), np.arange(count), time, volts, speed, unknown, unknown, {"": slice(0, count)})
+    return Signals(Path("log.csv"), np.arange(count), time, volts, motion, unknown, unknown, {"": slice(0, count)})

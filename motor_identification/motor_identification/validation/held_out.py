@@ -109,6 +109,10 @@ class HeldOut:
         everything = tuple(np.ones(len(data.first), dtype=bool) for data in longer)
         return replace(self, intervals=longer, angles=angles, scored=everything, instants=(), responses=())
 
+    def has_intervals_of(self, other: "HeldOut") -> bool:
+        """Whether another model is judged by the same intervals; not where directions of some were read anew."""
+        return [len(part) for part in self.scored] == [len(part) for part in other.scored]
+
     def leave_out(self, instants: Sequence[Bools]) -> "HeldOut":
         """Leave out of the gap what another model of the same motion does because of its instants."""
         if not any(marks.any() for marks in instants):

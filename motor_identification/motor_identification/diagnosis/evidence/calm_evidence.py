@@ -19,8 +19,7 @@ def measure_calm_share(without: Model, model: Model) -> float:
     In squares, in lasting intervals; 0 near the floor, where the smallest of what is left is so by chance, and where
     the two are not judged by the same intervals.
     """
-    scored, others = without.held.scored, model.held.scored
-    if [len(part) for part in scored] != [len(part) for part in others]:  # directions of some were read anew
+    if not without.held.has_intervals_of(model.held):
         return 0.0
     length = find_lasting_interval(without.held)
     before, after = without.held.leave_out(model.held.instants).joined(length), model.held.joined(length)

@@ -15,8 +15,7 @@ from motor_identification.recording import Bools, Recording
 
 def explains_changes(without: Model, model: Model) -> bool:
     """Decide whether a model takes away most of a gap that stands out where the command has just changed."""
-    scored, others = without.held.scored, model.held.scored
-    if [len(part) for part in scored] != [len(part) for part in others]:  # directions of some were read anew
+    if not without.held.has_intervals_of(model.held):
         return False
     lasts = thresholds.ANSWERING_LAGS * model.estimate.parameters.time_constant
     rows = zip(model.held.recordings, model.held.intervals, strict=True)

@@ -1,21 +1,14 @@
 """An angle that was not read while the motor started is caught up at once: what stands before is left out."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
+from driven_rows import logged
 
 from motor_identification.logs.form import CsvForm, Kind
 from motor_identification.logs.rows.drive.unread_start import FEWEST_DRIVEN, drop_unread_start
-from motor_identification.logs.signals import Floats, Signals
+from motor_identification.logs.signals import Floats
 
 ANGLE = CsvForm("t", "u", "alpha", Kind.POSITION, "deg")
-
-
-def logged(volts: Floats, angle: Floats) -> Signals:
-    count = len(volts)
-    unknown, time = np.full(count, np.nan), np.arange(count) * 10_000_000
-    return Signals(Path("log.csv"), np.arange(count), time, volts, angle, unknown, unknown, {"": slice(0, count)})
 
 
 def frozen(rows: int, sign: float = 1.0) -> tuple[Floats, Floats]:
