@@ -16,6 +16,7 @@ from motor_identification.logs.rows.drive.command_sign import (
     take_off_commands_sign_of_speeds,
 )
 from motor_identification.logs.rows.drive.one_channel import ONE_CHANNEL, find_ways
+from motor_identification.logs.rows.drive.own_counts import take_fed_back
 from motor_identification.logs.rows.flicker import remove_flicker
 from motor_identification.logs.rows.resets import split_at_resets
 from motor_identification.logs.rows.row_lengths import divide_by_own_rows
@@ -35,6 +36,11 @@ _FAR = 5.5  # times between the steps of speeds and one count, below the 2π, 9.
 # Counts of a row in motion, by median, from which on its speed says as much as the angle: one is then a quarter of it.
 # Of fewer, speeds of single rows are little but their rounding, which the angle does not sum up.
 MANY_A_ROW = 4.0
+MANY_FED_BACK = 16.0  # the same where a loop's command answers the rounding: what it says of the next row is no motion
+FED_BACK = (
+    "Speeds in {} are counts of single rows, which the command answers (a speed loop on them): they are summed up to "
+    "positions, in which their rounding is not (assumed; otherwise: --speed-window)."
+)
 TIMED = "Speeds in {} are one angle over whole ticks of a timer each: they were timed between edges, not counted."
 LARGEST_COUNT = 2**53  # counts and positions beyond are no whole numbers any more
 
@@ -71,12 +77,17 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
         )
     signals, lengths = (signals, []) if form.speed_window else divide_by_own_rows(signals, form.nominal_period)
     signals, signs = _give_own_signs(form, signals)
+    summing = form.speed_window is None and form.speed_lag is None and not form.count_quantum
+    fed_back = take_fed_back(signals, info.sample_period) if summing else None
+    if fed_back and _median_size(fed_back[0].motion) < MANY_FED_BACK * fed_back[1]:
+        counted = _count_rows(form, info, *fed_back)
+        return replace(counted, findings=(*lengths, *signs, FED_BACK.format(form.motion), *counted.findings))
     signals, turned = (signals, []) if form.signs_as_they_are else turn_round(signals, is_speed=True)
     signals, means, one = (signals, [], inf) if form.speed_window else _undo_running_mean(signals, info.sample_period)
     values = signals.motion
-    few = bool(means) and float(np.median(np.abs(values[values != 0.0]))) < MANY_A_ROW * one
-    if few and form.speed_lag is None and not form.count_quantum:
-        counted = _counts(replace(form, kind=Kind.POSITION, unit="rad"), info, _sum_up_rows(form, info, signals, one))
+    few = bool(means) and _median_size(values) < MANY_A_ROW * one
+    if few and summing:
+        counted = _count_rows(form, info, signals, one)
         return replace(counted, findings=(*signs, *turned, *means, *counted.findings))
     window = form.speed_window or info.sample_period
     lag = 0.5 * window if form.speed_lag is None else form.speed_lag
@@ -132,14 +143,19 @@ def _undo_running_mean(signals: Signals, period: float) -> tuple[Signals, list[s
     return replace(signals, motion=motion), [said], size_of_count(signals.motion, rows)
 
 
-def _sum_up_rows(form: CsvForm, info: Info, signals: Signals, one: float) -> Signals:
-    """Make positions [rad] of what single rows counted, every run from 0; `one`: a count's size in the form's unit."""
+def _median_size(values: Floats) -> float:
+    """Compute the middle size of what is not 0 among values of shape (K,)."""
+    return float(np.median(np.abs(values[values != 0.0])))
+
+
+def _count_rows(form: CsvForm, info: Info, signals: Signals, one: float) -> Motion:
+    """Read what single rows counted as positions [rad], every run from 0; `one`: a count's size in the form's unit."""
     edges = form.edges_per_revolution
     size = edge_angle(edges, form.gear) if edges else one * (form.unit_size or 1.0) * info.sample_period
     position = np.zeros(len(signals))
     for run in signals.runs.values():
         position[run] = np.cumsum(np.rint(signals.motion[run] / one)) * size
-    return replace(signals, motion=position)
+    return _counts(replace(form, kind=Kind.POSITION, unit="rad"), info, replace(signals, motion=position))
 
 
 def _about_count(form: CsvForm, signals: Signals, edges: int, window: float) -> str:

@@ -14,6 +14,7 @@ from motor_identification.recording import Floats
 
 MOST_LEVELS = 120  # that are looked at: more say nothing new
 FINEST = 1000.0  # steps up to the largest value; a finer lattice matters to nobody
+NOTHING = 0.02  # of the finest step: 0 in all but the last digits, which are no lattice of their own
 SCAN = 0.05  # of a period at the largest value: distance of the steps that are tried, so that no peak is jumped
 AT_ONCE = 2048  # steps, coarse ones first: most lattices are found among the first
 PEAK = 0.6  # mean cosine of the phases, from which on a step is refined
@@ -21,8 +22,8 @@ MOST_SCATTER = 0.12  # of a step: beyond, noise hides the lattice (uniform phase
 LEAST_SCATTER = 1e-3  # of a step: better than that is no more evidence
 MOST_COARSE = 1.9  # times a step that was found: half of it fits as well
 LEAST_PLACES = 4  # different multiples that must occur
-FEWEST_COUNTS = 2  # different sizes above 0: one is a motor that runs or stands
 SAME_LEVEL = 1e-3  # of the largest: sizes that differ by no more are one, in a last digit that a filter's undoing left
+CHANGES_OF_ONE = 200  # changes where there is one size: fewer are a motor that runs or stands
 CHANGES_OF_EACH = 20  # changes for each of so few sizes: a motor's speeds between some steps do not come again as often
 CHANCE = 1e-4  # that values without a lattice are given one
 PARTS = (1.0, 0.5, 0.25)  # of the largest value: a window that jitters blurs large values, not small ones
@@ -34,7 +35,7 @@ def find_lattice(values: Floats, finest: float = FINEST) -> float:
     finest: how many steps there are up to the largest value, at most.
     """
     levels = np.unique(np.abs(values))
-    levels = levels[levels > 1e-12 * levels[-1]] if len(levels) else levels
+    levels = levels[levels > NOTHING / finest * levels[-1]] if len(levels) else levels
     if len(levels) > MOST_LEVELS:  # at random: every so many of many levels lie on a lattice of their own
         levels = np.sort(np.random.default_rng(0).choice(levels, MOST_LEVELS, replace=False))
     for part in PARTS:
@@ -53,12 +54,12 @@ def _find_small_counts(values: Floats, levels: Floats) -> float:
     same = SAME_LEVEL * levels[-1] if len(levels) else 0.0
     levels = levels[levels > same]
     sizes = levels[np.diff(levels, prepend=0.0) > same]  # the first of those that differ in their last digits
-    if not FEWEST_COUNTS <= len(sizes) < LEAST_PLACES or not np.any(np.abs(values) <= same):
+    if not 1 <= len(sizes) < LEAST_PLACES or not np.any(np.abs(values) <= same):
         return 0.0
     step = _refine(levels, float(sizes[0]))
     all_there = np.array_equal(np.rint(sizes / step), np.arange(1, len(sizes) + 1))
     changes = np.count_nonzero(np.abs(np.diff(values)) > same)
-    often = changes >= CHANGES_OF_EACH * len(sizes)
+    often = changes >= (CHANGES_OF_ONE if len(sizes) == 1 else CHANGES_OF_EACH * len(sizes))
     return step if all_there and often and _scatter(levels, step) < LEAST_SCATTER else 0.0
 
 

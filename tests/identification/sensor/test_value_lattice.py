@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from motor_identification.sensor.value_lattice import find_lattice
+from motor_identification.sensor.value_lattice import CHANGES_OF_ONE, find_lattice
 
 SAMPLES = 2000
 
@@ -75,3 +75,14 @@ def test_a_few_counts_that_change_all_the_time_are_a_lattice(most: int) -> None:
     digits = 2e-4 * most * np.random.default_rng(9).uniform(-1.0, 1.0, len(counts))
     assert find_lattice((counts + digits) * 4.488) == pytest.approx(4.488, rel=1e-3)  # what a filter's undoing leaves
     assert find_lattice((counts + 20.0 * digits) * 4.488) == 0.0
+
+
+def test_one_count_that_comes_and_goes_all_the_time_is_a_lattice() -> None:
+    """As of an encoder that has less than one a row; a motor that runs and stands changes a few times."""
+    counts = np.random.default_rng(5).integers(-1, 2, 1000).astype(float)
+    assert find_lattice(np.round(counts * 71.39983, 4)) == pytest.approx(71.39983, rel=1e-5)
+    assert find_lattice(np.repeat(counts[: CHANGES_OF_ONE // 2], 5) * 4.488) == 0.0
+    rest = np.where(
+        counts == 0.0, 3e-7 * np.arange(len(counts)) / len(counts), counts
+    )  # what a filter's undoing leaves
+    assert find_lattice(rest * 4.488) == pytest.approx(4.488, rel=1e-5)

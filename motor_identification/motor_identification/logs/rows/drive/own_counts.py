@@ -1,0 +1,113 @@
+"""Recognise a loop on its own counts: each command answers the count of its row, with the encoder's rounding in it.
+
+A PI controller changes its voltage by −kp·Δy and an integral's small step. Of speeds over single rows Δy is mostly the
+rounding of a count, and so is the command's change: to a fit of speeds, a command that predicts the rounding of the
+next row is a far too quick motor. Summed up to positions the rounding is gone after one row.
+
+Such a controller's speeds often passed a filter y_k = m·y_{k−1} + (1 − m)·x_k first. Wherever two rows count alike, its
+output's steps go down by m exactly: the commonest ratio of one step to the next is m. Running means of counts are taken
+apart, too.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from motor_identification.logs.signals import Floats, Signals
+from motor_identification.sensor.running_mean import OFF_GRID, size_of_count, take_single_rows
+from motor_identification.sensor.value_lattice import find_lattice
+from motor_identification.timing.speed_filter import MEMORY, SpeedFilter
+
+FEWEST_ROWS = 50  # in which the command changes
+CHANGES = 0.5  # of the rows: a loop's command changes in most
+LARGE = 0.95  # of the command's changes are smaller
+JUMP = 3.0  # times that: a set point's step, and no answer to one row
+ANSWERED = 0.5  # of the changes' variance that those of the speed explain, in the row and a few before
+ROWS = 3  # in which a controller answers: its own, and those of a loop that computes first or filters a little
+LONGEST_MEAN = 32  # rows of a running mean that is taken apart
+STEPS = 1e-3  # of the largest step of a filter's output: smaller ones are digits
+POLES = (0.02, 0.99)  # that are looked for
+SAME_RATIO = 2e-3  # ratios that differ by no more are one
+SHARE, FEWEST = 0.1, 30  # of the ratios, and at least, that are the filter's. By chance ratios are anywhere: 0.002
+
+
+def take_fed_back(signals: Signals, period: float) -> tuple[Signals, float] | None:
+    """Take what single rows counted, as speeds over one period [s], and a count's size in the motion's unit.
+
+    None where speeds are no whole counts, of a period or of their own rows, as they are or before a filter; or where
+    some run's command does not answer them.
+    """
+    if not all(_answers(signals.voltage[run], signals.motion[run]) for run in signals.runs.values()):
+        return None
+    for speeds in _list_unfiltered(signals):
+        for counted in (speeds, speeds * _measure_rows(signals, period)):
+            size = size_of_count(counted, 1) if find_lattice(counted) > 0.0 else 0.0
+            if size > 0.0 and np.max(np.abs(counted / size - np.rint(counted / size))) < OFF_GRID:
+                return _take_single_rows(replace(signals, motion=counted), size)
+    return None
+
+
+def _take_single_rows(signals: Signals, size: float) -> tuple[Signals, float]:
+    """Take what single rows counted, and a count's size, of counts in units of `size` that may be running means."""
+    for window in range(LONGEST_MEAN, 1, -1):
+        singles = [take_single_rows(signals.motion[run], window) for run in signals.runs.values()]
+        single = [one for one in singles if one is not None]
+        if len(single) == len(singles):
+            motion = np.zeros(len(signals))
+            for run, values in zip(signals.runs.values(), single, strict=True):
+                motion[run] = values
+            return replace(signals, motion=motion), size * window
+    return signals, size
+
+
+def _list_unfiltered(signals: Signals) -> Iterator[Floats]:
+    """List speeds, shape (K,), as they are, and as they were before a filter of one pole if they passed one."""
+    yield signals.motion
+    pole = find_pole(np.concatenate([_find_ratios(signals.motion[run]) for run in signals.runs.values()]))
+    if pole > 0.0:
+        unfiltered = np.zeros(len(signals))
+        for run in signals.runs.values():
+            unfiltered[run] = SpeedFilter(MEMORY, pole).undo(signals.motion[run])
+        yield unfiltered
+
+
+def _find_ratios(speed: Floats) -> Floats:
+    """Find the ratios of every step of a speed (K,) to the step before, where that is no digit; shape (M,)."""
+    steps = np.diff(speed)
+    before = np.flatnonzero(np.abs(steps[:-1]) > STEPS * np.max(np.abs(steps), initial=0.0))
+    return np.asarray(steps[before + 1] / steps[before])
+
+
+def find_pole(ratios: Floats) -> float:
+    """Find the pole of a filter behind counts by the ratios, shape (M,), of steps one after the other; 0 without."""
+    inside = np.sort(ratios[(ratios > POLES[0]) & (ratios < POLES[1])])
+    if len(inside) == 0:
+        return 0.0
+    count = np.searchsorted(inside, inside + SAME_RATIO, side="right") - np.arange(len(inside))
+    first = int(np.argmax(count))
+    if count[first] < max(FEWEST, SHARE * len(ratios)):
+        return 0.0
+    return float(np.median(inside[first : first + count[first]]))
+
+
+def _measure_rows(signals: Signals, period: float) -> Floats:
+    """Measure the length of every row, shape (K,), in periods [s]; the first of a run has one."""
+    rows = np.ones(len(signals))
+    for run in signals.runs.values():
+        rows[run][1:] = np.diff(signals.time[run]) * 1e-9 / period
+    return rows
+
+
+def _answers(voltage: Floats, speed: Floats) -> bool:
+    """Decide whether a command [V] answers speeds, each of shape (K,), against their way, as a speed loop's does."""
+    change, steps = np.diff(voltage)[ROWS - 1 :], np.diff(speed)
+    by = np.column_stack([steps[ROWS - 1 - back : len(steps) - back] for back in range(ROWS)])
+    changing = change != 0.0
+    if np.count_nonzero(changing) < max(FEWEST_ROWS, CHANGES * len(change)):
+        return False
+    small = np.abs(change) < JUMP * float(np.quantile(np.abs(change), LARGE))
+    change, by = change[small], by[small]
+    gains = np.linalg.lstsq(by, change, rcond=None)[0]
+    rest = change - by @ gains
+    return bool(gains.sum() < 0.0 and rest @ rest < (1.0 - ANSWERED) * (change @ change))
