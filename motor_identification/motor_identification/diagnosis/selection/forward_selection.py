@@ -57,7 +57,7 @@ def select_forward(
         refused = refused or (plain and selection.model.at_floor and promises_anything(selection))
         pair = find_pair(selection, tests, reporter) if pairs and may_hide_pair(selection) else []
         if not pair and pairs and not plain and _may_add_pair(selection):
-            pair = find_promised_pair(selection)
+            pair = find_promised_pair(selection) or find_closing_pair(selection, tests, reporter)
         selection = replace(selection, refused=refused)
         if not pair:
             return selection
@@ -65,6 +65,18 @@ def select_forward(
         if not further.model.complete and pair[-1].explains <= thresholds.STAND_IN_SHARE:
             return selection
         selection = further
+
+
+def find_closing_pair(
+    selection: Selection, tests: Sequence[CandidateTest], reporter: ProgressReporter
+) -> list[SelectionStep]:
+    """Find the two effects of which one is likely beside a random torque, but opens the gap that the other closes.
+
+    A torque is learned of what a model lacks, and large enough to make it complete: of friction on a coasting bridge.
+    """
+    opening = [test for test in tests if is_supported(test) and test.model.held.gap > test.held_before.gap]
+    pair = find_pair(selection, opening, reporter) if opening else []
+    return pair if pair and pair[-1].found.model.held.gap < selection.model.held.gap else []
 
 
 def _may_add(finding: CandidateTest, selection: Selection) -> bool:

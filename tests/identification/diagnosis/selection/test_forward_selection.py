@@ -84,6 +84,27 @@ def test_what_is_likely_alone_is_no_compromise() -> None:
         assert (list_partners([test]) == [test]) is not compromise
 
 
+@pytest.mark.parametrize(("opens", "left", "found"), [(6.0, 4.9, True), (6.0, 5.1, False), (4.9, 4.0, False)])
+def test_beside_a_torque_what_is_likely_but_opens_the_gap_is_tried_with_what_closes_it(
+    monkeypatch: pytest.MonkeyPatch, opens: float, left: float, found: bool
+) -> None:
+    """Friction on a coasting bridge: a torque of 4.5 % was learned in its place, and made the model complete."""
+    errors, gains = ErrorModel(0.0, 0.0, 0.1, 0.05), np.ones(40)
+    before = replace(stub_model(5.0), learned=errors, score=Score(0.0, scored=100, moments=0.0 * gains))
+    first = replace(stub_model(opens), learned=errors, score=Score(40.0, held_out=1.0, scored=100, moments=gains))
+    opening = CandidateTest("quadratic_drag", before, first)
+    closing = CandidateTest("coast_drive", first, replace(first, held=stub_held(left)))
+    step = step_of(closing)
+
+    def pair(selection: Selection, tests: list[CandidateTest], reporter: object) -> list[SelectionStep]:
+        assert tests == [opening]
+        return [step_of(opening), step]
+
+    monkeypatch.setattr(forward_selection, "find_pair", pair)
+    steps = forward_selection.find_closing_pair(selection_of(before), [opening], SILENT)
+    assert ([one.found.effect for one in steps] == ["quadratic_drag", "coast_drive"]) is found
+
+
 def test_pairs_are_tried_above_the_floor_and_only_early() -> None:
     step = step_of(stub_test("load_bias", stub_model(9.0), 5.0, 100.0))
     few, many = [step] * (thresholds.PAIR_MOST_STEPS - 1), [step] * thresholds.PAIR_MOST_STEPS
