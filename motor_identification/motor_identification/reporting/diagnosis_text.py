@@ -148,7 +148,7 @@ def _describe_findings(diagnosis: Diagnosis) -> str:
     clear = [one for one in diagnosis.findings if not (one.ambiguous_with or one.sensor_may_lag)]
     vague = list_vague(clear)
     sized = [one for one in clear if one not in vague]
-    sure = diagnosis.after.confirms and not diagnosis.is_of_no_motor
+    sure = diagnosis.after.confirms and not (diagnosis.is_of_no_motor or diagnosis.time_limit)
     parts = [f"{_describe_found(sized, sure)}."] if sized else []
     parts += [f"{_describe_found(vague, sure=False)}; this recording does not tell how much."] if vague else []
     missing = "is missing" if sure else "may be missing"

@@ -78,6 +78,13 @@ def test_a_motor_that_no_voltage_moves_like_this_is_said(variants: dict[Verdict,
     assert walled.is_of_no_motor and " may be missing" in said and "was missing" not in said
 
 
+def test_what_was_found_until_a_time_limit_is_not_sure(found: Diagnosis) -> None:
+    """No elimination has looked at it: an inductance that a dead time was found beside, and that was none."""
+    hurried = summarize_diagnosis(replace(found, verdict=Verdict.UNDECIDED, time_limit=30.0))
+    assert hurried.startswith("The time limit of 30 s ended") and " may be missing" in hurried
+    assert "was missing" not in hurried and "is missing" not in hurried
+
+
 def test_of_a_motion_that_does_not_follow_its_command_kv_is_not_said_as_well(
     variants: dict[Verdict, Diagnosis], monkeypatch: pytest.MonkeyPatch
 ) -> None:
