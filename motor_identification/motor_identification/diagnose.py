@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from time import perf_counter
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import fits_torque
 from motor_identification.diagnosis.effect_test import sort_by_table
 from motor_identification.diagnosis.evidence.line_evidence import adds_only_lines
@@ -23,7 +22,7 @@ from motor_identification.diagnosis.selection.determination import drop_undeterm
 from motor_identification.diagnosis.selection.forward_selection import select_forward
 from motor_identification.diagnosis.selection.restarts import retry_with_another_first, retry_with_pair
 from motor_identification.diagnosis.selection.rivals import check_beside_torque
-from motor_identification.diagnosis.selection.selection import Selection
+from motor_identification.diagnosis.selection.selection import Selection, begin_beside_torque
 from motor_identification.diagnosis.selection.stand_ins import (
     doubt_instants,
     drop_stand_ins,
@@ -181,7 +180,7 @@ def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tu
         selection = eliminate_backward(drop_stand_ins_of_either(first, selection), reporter)
         if selection.model.complete and selection.model.above_floor:
             selection = check_beside_torque(selection, reporter)
-    elif beside.steps and _fits_torque(beside.model, start.model):
+    elif beside.steps and _fits_torque(beside, start):
         selection = eliminate_backward(keep_confirmed(selection, beside.model.effects), reporter)
     else:
         selection = beside
@@ -192,8 +191,22 @@ def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tu
     if untold := set(find_untold(left.model)) - set(start.model.effects):
         return start, sort_by_table(untold | set(undetermined))
     # What is left of a model that fits a slow torque instead of the motion tells less than the one to begin with.
-    return start if _fits_torque(left.model, start.model) else left, undetermined
+    return start if _fits_torque(left, start) else left, undetermined
 
 
-def _fits_torque(model: Model, start: Model) -> bool:
-    return fits_torque(model.held, start.held, adds_only_lines(model, start))
+def _fits_torque(selection: Selection, start: Selection) -> bool:
+    """Decide whether a selection fits a slow torque instead of the motion.
+
+    Of what both have seen, least squares leave the smallest gap, whatever the torque: there a model beside it is no
+    worse for more than that, and is compared with the one to begin with beside it.
+    """
+    model, plain = selection.model, start.model
+    lines = adds_only_lines(model, plain)
+    if not fits_torque(model.held, plain.held, lines):
+        return False
+    if not (model.held.seen and model.beside_torque and not plain.beside_torque):
+        return True
+    if set(model.effects) == set(plain.effects):
+        return False
+    alike = begin_beside_torque(plain, start.hold_out, start.workers).model
+    return fits_torque(model.held, alike.held, lines)
