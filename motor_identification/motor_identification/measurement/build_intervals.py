@@ -15,7 +15,12 @@ from motor_identification.measurement.intervals import Intervals, index_interval
 from motor_identification.measurement.pulse_intervals import make_pulse_intervals, measure_slot
 from motor_identification.measurement.sampled_counts import Changes, extract_count_changes, locate_fixes
 from motor_identification.measurement.sanity_checks import check_counts
-from motor_identification.measurement.standstill import find_standstills_at_edges, find_standstills_at_reversals
+from motor_identification.measurement.standstill import (
+    REST_RANGE,
+    find_standstills_at_edges,
+    find_standstills_at_reversals,
+    find_standstills_of_noisy_angles,
+)
 from motor_identification.recording import Floats, Recording
 from motor_identification.sensor.held_counts import drop_held_counts
 from motor_identification.sensor.noisy_angle import Angles, find_noisy_angles
@@ -107,18 +112,22 @@ def make_count_intervals(recording: Recording, changes: Changes) -> Intervals:
 
 
 def _from_noisy_angles(recording: Recording, angles: Angles) -> Intervals:
-    """Make intervals from angle to angle, each known to within its noise."""
+    """Make intervals from angle to angle, each known to within its noise, but for those in which the shaft rests."""
     slot, time = recording.info.edge_angle, angles.time
     place = (angles.angle - angles.angle[0]) * slot
     speed = np.diff(place) / np.diff(time)
-    return index_intervals(
-        time[:-1],
-        time[1:],
-        speed,
-        np.full(len(speed), angles.noise * slot),
-        place=np.column_stack([place[:-1], place[1:]]),
+    rests = find_standstills_of_noisy_angles(time, angles.angle, angles.noise)
+    rested = np.searchsorted(rests[0], time[:-1], side="right") > np.searchsorted(rests[1], time[1:], side="left")
+    moves = ~rested
+    moving = index_intervals(
+        time[:-1][moves],
+        time[1:][moves],
+        speed[moves],
+        np.full(np.count_nonzero(moves), angles.noise * slot),
+        place=np.column_stack([place[:-1], place[1:]])[moves],
         gear=float(recording.info.gear),
     )
+    return append_standstills(moving, rests, REST_RANGE * angles.noise * slot)
 
 
 def _from_speed(recording: Recording) -> Intervals:

@@ -1,12 +1,18 @@
 """Find standstills: times without an edge are evidence that the motor moved less than a slot."""
 
+from math import sqrt
+
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
 from motor_identification.measurement.edges import Edges
 from motor_identification.measurement.sampled_counts import Changes
 from motor_identification.recording import Bools, Floats, Recording
 
 LEAST_STANDSTILL = 20.0  # sample periods without an edge before the lack of edges is evidence
+# Standard deviations of noise: how far apart the angles of so many rows at rest are, and of the means of their halves.
+REST_RANGE, REST_DRIFT = 7.0, 4.0
+REST_ROWS = 3.0  # times as many rows at rest: a slow motion is as calm in fewer now and then
 
 
 def find_standstills_at_edges(recording: Recording, edges: Edges, open_ones: Bools) -> tuple[Floats, Floats]:
@@ -35,3 +41,25 @@ def find_standstills_at_reversals(recording: Recording, changes: Changes) -> tup
     start, end = recording.time[changes.sample[turned]], recording.time[changes.sample[turned + 1] - 1]
     long = end - start > LEAST_STANDSTILL * recording.sample_period
     return start[long], end[long]
+
+
+def find_standstills_of_noisy_angles(time: Floats, angle: Floats, noise: float) -> tuple[Floats, Floats]:
+    """Find start and end [s] of times in which angles, shape (K,), differ by noise alone; noise: in the same unit."""
+    rows = round(LEAST_STANDSTILL)
+    if len(angle) <= rows:
+        return np.zeros(0), np.zeros(0)
+    half = rows // 2
+    window = sliding_window_view(angle, rows)
+    least = REST_DRIFT * noise * sqrt(2.0 / half)
+    calm = np.abs(window[:, half:].mean(axis=1) - window[:, :half].mean(axis=1)) < least
+    calm &= np.ptp(window, axis=1) < REST_RANGE * noise
+    rests = np.convolve(calm, np.ones(rows)) > 0.0  # rows of any such window
+    edges = np.diff(np.concatenate([[0], rests.astype(np.int8), [0]]))
+    begin, end = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)
+    long = end - begin >= REST_ROWS * rows
+    # What moves by a part of the noise may be among the first rows and the last.
+    begin = np.where(begin > 0, begin + half, begin)[long]
+    end = np.where(end < len(angle), end - half, end)[long]
+    apart = [angle[j - half : j].mean() - angle[i : i + half].mean() for i, j in zip(begin, end, strict=True)]
+    stays = np.abs(np.asarray(apart, dtype=np.float64)) < least
+    return time[begin[stays]], time[end[stays] - 1]

@@ -7,7 +7,13 @@ from handmade import turning
 from motor_identification.measurement import standstill
 from motor_identification.measurement.edges import Edges, extract_edges
 from motor_identification.measurement.sampled_counts import Changes, extract_count_changes
-from motor_identification.measurement.standstill import find_standstills_at_edges, find_standstills_at_reversals
+from motor_identification.measurement.standstill import (
+    LEAST_STANDSTILL,
+    REST_ROWS,
+    find_standstills_at_edges,
+    find_standstills_at_reversals,
+    find_standstills_of_noisy_angles,
+)
 from motor_identification.recording import Floats
 from motor_model.sample import Measurement
 
@@ -67,3 +73,19 @@ def test_counts_stand_around_a_turn(samples: int, found: bool) -> None:
     assert (len(start) == 1) is found
     if found:
         assert (start[0], end[0]) == (recording.time[before], recording.time[before + samples - 1])
+
+
+def test_noisy_angles_rest_where_they_differ_by_noise_alone() -> None:
+    random, time = np.random.default_rng(0), 0.005 * np.arange(3000)
+    noise = random.normal(0.0, 0.6, len(time))
+    stops = np.interp(time, [5.0, 8.0], [0.0, 150.0])
+    start, end = find_standstills_of_noisy_angles(time, stops + noise, 0.6)
+    assert start[0] == 0.0 and end[-1] == time[-1] and len(start) == 2
+    assert 4.7 < end[0] <= 5.0 and 8.0 <= start[1] < 8.3
+    for speed in (1.0, 5.0, 20.0):  # counts a second: 0.2 of the noise in twenty rows, and more
+        assert len(find_standstills_of_noisy_angles(time, speed * time + noise, 0.6)[0]) == 0
+    for stays, rests in ((0.5, 0), (2.0, 1)):
+        rows = stays * REST_ROWS * LEAST_STANDSTILL * 0.005
+        short = 40.0 * (np.minimum(time, 5.0) + np.maximum(time - 5.0 - rows, 0.0))
+        assert len(find_standstills_of_noisy_angles(time, short + noise, 0.6)[0]) == rests
+    assert len(find_standstills_of_noisy_angles(time[:10], noise[:10], 0.6)[0]) == 0

@@ -29,7 +29,10 @@ def test_the_noise_is_found_and_the_motor_with_it(noise: float, scale: float) ->
     expected = np.hypot(noise / scale, 12.0**-0.5)
     assert find_angle_noise(recording) == pytest.approx(expected, rel=0.1)
     data = make_intervals(recording)
-    assert len(data.first) == len(recording) - 1 and data.blur == pytest.approx(expected * scale, rel=0.1)
+    moves = data.slack == 0.0
+    rows = np.rint(data.duration / recording.sample_period)
+    assert rows.sum() == len(recording) - 1 and np.all(rows[moves] == 1)
+    assert data.blur[moves] == pytest.approx(expected * scale, rel=0.1)
     fit = identify([recording], Request(("coulomb_friction", "load_bias")))
     for name, value in AXIS.items():
         error = fit.standard_errors[name]
@@ -70,7 +73,8 @@ def test_rows_are_averaged_where_the_noise_hides_their_motion(told: float) -> No
     averaged = told < LEAST_TOLD
     assert (found.rows > 1) is averaged and found.rows <= MOST_ROWS * len(noisy)
     assert found.noise == noise / np.sqrt(found.rows) and len(found.time) == len(noisy) // found.rows
-    assert make_intervals(noisy).blur == pytest.approx(found.noise * noisy.info.edge_angle)
+    data = make_intervals(noisy)
+    assert data.blur[data.slack == 0.0] == pytest.approx(found.noise * noisy.info.edge_angle)
     said = note_sensors([noisy])[0].notes[-1]
     assert ("averaged over" in said) is averaged and ("sample to sample" in said) is not averaged
     fastest = float(np.abs(find_plain_speed(noisy)).max())
@@ -106,3 +110,17 @@ def test_a_motor_is_identified_behind_a_potentiometer_that_hides_the_motion_of_a
     value, error = noisy.parameters.value("kv"), noisy.standard_errors["kv"]
     assert abs(value - clean.parameters.value("kv")) < 4.0 * error < 0.1 * value
     assert WELL_TOLD > LEAST_TOLD
+
+
+def test_rests_are_times_at_which_nothing_moves_a_motor() -> None:
+    """From angle to angle, a random torque that a filter learns seems to be too small for a motor that friction holds.
+
+    In the simulated recording where that was met, 0.0100 V of 0.0120 V, and an effect "not in the table" was missing.
+    """
+    recording, truth = record_servo(duration=10.0, noise=3e-5, scale=1e-5)
+    data = make_intervals(recording)
+    still = data.slack > 0.0
+    assert np.count_nonzero(still) >= 2 and data.slack[still] == pytest.approx(7.0 * data.blur[0])
+    for start, end in zip(data.time[data.first[still]], data.time[data.last[still]], strict=True):
+        inside = (recording.time >= start) & (recording.time <= end)
+        assert np.ptp(truth.angle[inside]) < data.slack[still][0]
