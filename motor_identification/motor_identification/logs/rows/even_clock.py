@@ -21,6 +21,9 @@ FASTEST = 0.5  # quantile of the travel within a window, above which motion tell
 ODD = 3.0  # times the median of what is left: windows where the voltage jumps, or a position wraps, tell nothing
 # Standard errors of the scatter that the best of these clocks leaves in the motion: within, the most even one is taken.
 AS_GOOD = 1.0
+# Rows whose means are looked at, too: what a clock runs away within seven is less than an encoder's step. Measured: of
+# a loop whose periods vary by 6 %, at 1.5 counts a row, an even clock is 1.9 ms off, and its stamps are 0.3 ms late.
+BLOCKS = 32, 8
 ITS_OWN = 0.5  # share of a row's lateness that the motion goes on with: less is lateness of the stamp
 SURE = 2.0  # standard errors
 MOSTLY = 0.9  # of rows: as many that go as far as each other are one for every flank
@@ -72,10 +75,29 @@ def _choose_clock(clocks: list[Floats], stamps: Floats, position: Floats | None,
 
 
 def _find_best_clock(clocks: list[Floats], position: Floats) -> int:
-    """Find the number of the clock [s] over which positions (K,) scatter least, the most even one of equals."""
-    left = [_measure_fast_scatter(clock, position) for clock in clocks]
+    """Find the number of the clock [s] over which positions (K,) scatter least, the most even one of equals.
+
+    First of the clocks that means of rows go on with, over many rows; of these, over few.
+    """
+    numbers = list(range(len(clocks)))
+    for rows in BLOCKS:
+        means = _average_rows(position, rows)
+        if len(means) >= WINDOW:
+            numbers = _list_as_good([_average_rows(clock, rows) for clock in clocks], means, numbers)
+    return _list_as_good(clocks, position, numbers)[0]
+
+
+def _list_as_good(clocks: list[Floats], position: Floats, numbers: list[int]) -> list[int]:
+    """List the numbers of those clocks [s], of some, over which positions (K,) scatter as little as over the best."""
+    left = [_measure_fast_scatter(clocks[number], position) for number in numbers]
     most = (1.0 + AS_GOOD / sqrt(FASTEST * len(position) / WINDOW)) * min(left)
-    return next(number for number, scatter in enumerate(left) if scatter <= most)
+    return [number for number, scatter in zip(numbers, left, strict=True) if scatter <= most]
+
+
+def _average_rows(values: Floats, rows: int) -> Floats:
+    """Average so many rows each of values (K,), of shape (K / rows,)."""
+    whole = len(values) // rows * rows
+    return np.asarray(values[:whole].reshape(-1, rows).mean(axis=1))
 
 
 def _is_row_a_flank(position: Floats) -> bool:

@@ -71,6 +71,18 @@ def test_a_loop_that_runs_away_and_is_stamped_late_is_smoothed() -> None:
     assert off[0] < 0.6 * min(off[1:])
 
 
+def test_a_loop_of_coarse_counts_that_runs_away_for_long_is_on_no_even_clock() -> None:
+    """Seven rows of 1.5 counts each tell nothing of a period that is 6 % longer or shorter; means of many rows do."""
+    random = np.random.default_rng(1)
+    true = np.cumsum(0.0035 * (1.0 + 0.06 * random.standard_normal(1000)))
+    stamps = np.maximum.accumulate(true + 0.1 * 0.0035 * random.exponential(size=1000))
+    restored, said = restore_even_clock(signals(stamps, np.floor(1.5 / 0.0035 * true)))
+    assert len(said) == 1
+    even = np.polyval(np.polyfit(np.arange(1000), stamps, 1), np.arange(1000))
+    off = [1e3 * np.std(times - true) for times in (1e-9 * restored.time, stamps, even)]
+    assert 0.1 < off[0] < 0.8 * off[1] < 0.4 < 1.0 < off[2]  # [ms]
+
+
 def test_whole_milliseconds_and_few_counts_hide_no_clock() -> None:
     """A hundred counts a turn at most, ten or less a row: an eighth of what a row may be late is seen."""
     even = 0.005 * np.arange(ROWS)
