@@ -164,6 +164,8 @@ def _motion(
     if said.unit and not said.kind and (kind is None or said.unit not in UNITS[kind]):
         kind = next(one for one in _ORDER if said.unit in UNITS[one])
     sure = kind is not None or not period or is_kind_sure(values, table.numbers(pair.voltage))
+    if not sure and _is_called_v(heading):
+        kind, sure = Kind.SPEED, True
     if kind is None:
         kind = guess_kind(values, table.numbers(pair.voltage)) if period else _guess_untimed_kind(values)
     if _is_speed_called_angle(heading, said) and is_speed_by_drive(values, table.numbers(pair.voltage)):
@@ -176,6 +178,11 @@ def _motion(
     asked = unit if sure else replace(unit, candidates=(*unit.candidates, *other))
     _ask_about(pair.motion, values, kind, asked, said, notes, _find_speed_beside(table, pair, kind, said))
     return kind, unit
+
+
+def _is_called_v(heading: Heading) -> bool:
+    """Whether a motion is called `vRot`: a velocity, where its numbers tell no kind; a voltage of a sensor is `V`."""
+    return heading.quantity is Quantity.VOLTAGE and not heading.unit and heading.name.lstrip().startswith("v")
 
 
 def _find_speed_beside(table: Table, pair: Pair, kind: Kind, said: Said) -> str:

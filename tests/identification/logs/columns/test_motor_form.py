@@ -168,6 +168,19 @@ def test_units_of_both_kinds_are_asked_for_where_the_numbers_tell_neither(rows: 
     assert ", or of a slide in mm" in question
 
 
+@pytest.mark.parametrize(("name", "kind"), [("vRot", Kind.SPEED), ("rotated", Kind.POSITION)])
+def test_a_motion_called_v_is_a_velocity_where_its_numbers_tell_no_kind(name: str, kind: Kind) -> None:
+    """A duty without a sign under which a motor runs both ways, in steps of 6,283 a turn, which any gyro may have."""
+    drive = np.tile(np.repeat([10.0, 0.0], 500), 4) * np.repeat([0.5, 1.0, 1.5, 2.0], 1000)
+    way, speed = np.repeat([1.0, -1.0, 1.0, -1.0], 1000), np.zeros(4000)
+    for k in range(1, 4000):
+        speed[k] = speed[k - 1] + 0.06 * (way[k - 1] * 20.0 * drive[k - 1] - speed[k - 1])
+    numbers = {"t": 0.002 * np.arange(1, 4001), "pwm": drive, name: np.round(speed / 0.001) * 0.001 * np.pi / 3.141}
+    table, rows = Table(Path("log.csv"), np.arange(4000), numbers), Rows("t", "s", 0.002)
+    said = Said(supply_voltage=7.4)
+    assert make_form(table, Pair("", "pwm", name), Roles("t", (), None, None), said, rows, Notes([], [])).kind is kind
+
+
 @pytest.mark.parametrize(
     ("beside", "offered"),
     [(("speed",), "speed"), ((), ""), (("speed", "velocity"), ""), (("target_speed",), "")],
