@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from motor_identification.logs.columns.behaviour.position import find_position
 from motor_identification.logs.columns.drive import drives, is_supply
 from motor_identification.logs.columns.heading import Heading
-from motor_identification.logs.columns.vocabulary import INPUTS, MOVES, OUTPUTS, SIDES, WORDS, Quantity
+from motor_identification.logs.columns.vocabulary import INPUTS, MOVES, OUTPUTS, SIDES, WORDS, Quantity, words_of
 from motor_identification.logs.csv.table import Table
 
 Floats = NDArray[np.float64]
@@ -20,6 +20,7 @@ FEWEST_OWN = 10  # changes of a velocity while its drive stays, from which on it
 OWN_WAY = 0.02
 MOST_LATE = 2  # rows that a measured voltage is behind what was commanded
 MOST_LEVELS = 3  # of a pulse that drives
+NORMED = words_of("norm normed normalized normalised scaled")  # of an end of a system: `output_norm`
 
 
 def references_beside(headings: list[Heading]) -> list[Heading]:
@@ -165,5 +166,5 @@ def _is_bare_input(heading: Heading) -> bool:
 
 def _place(heading: Heading) -> frozenset[str] | None:
     """Which end of a system a name is of, but for which motor it belongs to: `outputL`; None where of none."""
-    words = [word for word in heading.words if word not in SIDES and word != "r"]
+    words = [word for word in heading.words if word not in SIDES and word not in NORMED and word != "r"]
     return next((place for place in (INPUTS, OUTPUTS) if len(words) == 1 and words[0] in place), None)

@@ -26,6 +26,14 @@ def test_the_outputs_of_one_input() -> None:
     assert (curve.time, curve.pairs) == (None, (Pair("", "Masukan", "Kecepatan"),))
 
 
+def test_the_ends_of_a_system_that_were_normed() -> None:
+    """`output_norm` is the speed again, and what drives is the input, if it is the same in every row."""
+    columns = {"time_ms": "t", "speed_rpm": "y", "time_s": "t", "input_norm": "u", "output_norm": "y"}
+    assert find_roles(table(**columns), Said()).pairs == (Pair("", "input_norm", "speed_rpm"),)
+    told = find_roles(table(t="t", output_bridge="u", speed="y"), Said())
+    assert told.pairs == (Pair("", "output_bridge", "speed"),)
+
+
 def test_an_output_beside_what_drives_is_the_motors() -> None:
     effort = find_roles(table(Tempo="t", Saída="y", Erro="r", Esforço="u"), Said())
     assert effort.pairs == (Pair("", "Esforço", "Saída"),)
