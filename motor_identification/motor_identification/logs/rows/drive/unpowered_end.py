@@ -3,6 +3,7 @@
 import numpy as np
 
 from motor_identification.logs.form import CsvForm, Kind
+from motor_identification.logs.rows.drive.constant_voltage import CONSTANT
 from motor_identification.logs.rows.drive.unpowered_start import (
     HALF,
     MOSTLY,
@@ -18,7 +19,10 @@ RUNNING = 0.75  # of the speed at that voltage: below, it was coming to a stop
 
 
 def drop_unpowered_end(signals: Signals, form: CsvForm) -> tuple[Signals, list[str]]:
-    """Leave out the last rows of runs in which the motor stands at voltages at half of which it ran before."""
+    """Leave out the last rows of runs in which the motor stands at voltages at half of which it ran before.
+
+    So are those in which it comes to rest under one voltage that somebody said, of which no row says that it was on.
+    """
     keep, said = np.ones(len(signals), np.bool_), []
     for run in signals.runs.values():
         volts, motion = np.abs(signals.voltage[run]), signals.motion[run]
@@ -26,6 +30,13 @@ def drop_unpowered_end(signals: Signals, form: CsvForm) -> tuple[Signals, list[s
         stood, kept = find_standing_voltage(volts[ran:]), ran + 1
         if stopped := _count_rows_until_stop(volts, motion, form.kind, ran):
             stood, kept = float(volts[-1]), stopped
+        if stopped and form.voltage == CONSTANT:
+            keep[run.start + kept : run.stop] = False
+            said.append(
+                f"Left out: the last {len(volts) - kept} rows, in which {form.motion} comes to rest under the "
+                f"{stood:.3g} V that were said: the motor was switched off, or held (assumed)."
+            )
+            continue
         little = (volts[:ran] > 0.0) & (volts[:ran] <= HALF * stood)
         if np.count_nonzero(little) < ROWS or np.mean(mark_motion(motion, form.kind)[:ran][little]) < MOSTLY:
             continue

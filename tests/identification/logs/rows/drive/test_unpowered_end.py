@@ -7,6 +7,7 @@ import pytest
 from driven_rows import LEVELS, SPEED, logged
 
 from motor_identification.logs.form import Kind
+from motor_identification.logs.rows.drive.constant_voltage import CONSTANT
 from motor_identification.logs.rows.drive.unpowered_end import FEWEST, drop_unpowered_end
 from motor_identification.logs.rows.drive.unpowered_start import FEWEST_CHANGES, ROWS
 from motor_identification.logs.signals import Floats, Signals
@@ -74,6 +75,15 @@ def test_a_stop_under_the_same_voltage_is_left_out_with_its_run_down(kind: Kind)
     for level, rest in ((4.0, FEWEST - 1 if kind is Kind.SPEED else FEWEST - 2), (1.5, 15)):
         signals = stopped(level, rest, kind)
         assert drop_unpowered_end(signals, replace(SPEED, kind=kind))[1] == [], "too short; it hardly ran at less"
+
+
+@pytest.mark.parametrize(("voltage", "kept"), [(CONSTANT, 300), ("u", 500)])
+def test_a_log_of_one_step_ends_where_the_motor_comes_to_rest(voltage: str, kept: int) -> None:
+    """A program switches the motor off and logs on; the voltage that was said is in no row. What was logged is kept."""
+    speed = np.concatenate((np.full(300, 90.0), np.linspace(60.0, 0.0, 50), np.zeros(150)))
+    found, said = drop_unpowered_end(logged(np.full(500, 6.0), speed), replace(SPEED, voltage=voltage))
+    assert len(found) == kept and bool(said) == (kept < 500)
+    assert not said or said[0].startswith("Left out: the last 200 rows, in which y comes to rest under the 6 V")
 
 
 def test_a_slow_encoder_that_gives_no_count_for_some_rows_runs_on() -> None:
