@@ -17,6 +17,7 @@ _NUMERIC = {
 }  # fmt: skip
 _CLASS, _EMPTY, _OBJECT = "MATLAB_class", "MATLAB_empty", "MATLAB_object_decode"
 _REFERENCES, _STREAMS = "#refs#", "#sigstream#"
+MOST_MEMBERS = 64  # of an array of structs: a longer one is no recording's signals
 
 
 def read_variables_7_3(data: bytes) -> dict[str, Value]:
@@ -27,28 +28,55 @@ def read_variables_7_3(data: bytes) -> dict[str, Value]:
         TooLargeError: it is unpacked more than 512 MiB, or has too many objects or numbers.
     """
     file = read_hdf5(data)
-    found: dict[str, Value] = {}
+    found: dict[str, Value] = {"": {}} if any(map(_is_object, _list_own(file).values())) else {}
     numbers = 0
-    for path, array in file.arrays.items():
-        first, *rest = path.split("/")
-        if first.startswith("#"):
-            continue
-        value = _numbers(array) if _OBJECT not in array.attributes else None
-        if value is None:
-            if _OBJECT in array.attributes:
-                found[""] = {}
-            continue
-        numbers += value.size
+    for path, value in (*_list_matrices(file), *_list_members(file)):
+        numbers += value.size if isinstance(value, np.ndarray) else 0
         if numbers > MOST_NUMBERS:
             raise TooLargeError(f"more than {MOST_NUMBERS // 10**6} million numbers")
-        _put(found, (first, *rest), value)
+        _put(found, path, value)
     signals = dict(_streamed(file))
     if signals:
         found.pop("", None)
     return {**found, **{name: signal for name, signal in signals.items() if name not in found}}
 
 
-def _put(found: dict[str, Value], path: tuple[str, ...], value: NDArray[np.float64]) -> None:
+def _list_own(file: Hdf5) -> dict[str, Array]:
+    """List the arrays by path that are variables or parts of such."""
+    return {path: array for path, array in file.arrays.items() if not path.startswith("#")}
+
+
+def _is_object(array: Array) -> bool:
+    return _OBJECT in array.attributes
+
+
+def _list_matrices(file: Hdf5) -> Iterator[tuple[tuple[str, ...], Value]]:
+    """List the matrices of numbers by their path of structs."""
+    for path, array in _list_own(file).items():
+        value = None if _is_object(array) else _numbers(array)
+        if value is not None:
+            yield tuple(path.split("/")), value
+
+
+def _list_members(file: Hdf5) -> Iterator[tuple[tuple[str, ...], Value]]:
+    """List the matrices and texts in arrays of structs, numbered: their fields are arrays of references.
+
+    An array of cells has references, too, and says that it is one.
+    """
+    for path, array in _list_own(file).items():
+        *place, field = path.split("/")
+        if not array.references or _CLASS in array.attributes or not place:
+            continue
+        for number, address in enumerate(array.values.ravel()[:MOST_MEMBERS], 1):
+            target = file.arrays.get(file.paths.get(int(address), ""))
+            value = None if target is None else _numbers(target)
+            if value is not None:
+                yield (*place, str(number), field), value
+            elif _text(target):
+                yield (*place, str(number), field), _text(target)
+
+
+def _put(found: dict[str, Value], path: tuple[str, ...], value: Value) -> None:
     """Put a value where its path of structs says."""
     name, *rest = path
     if not rest:

@@ -1,5 +1,6 @@
 """MATLAB files (version 4 to 7.3), Octave's and NumPy's as a table: vectors of one length, columns of matrices."""
 
+import re
 from collections.abc import Callable, Collection
 from pathlib import Path
 from typing import Any
@@ -23,6 +24,7 @@ from motor_model.errors import RecordingError
 
 OBJECTS = "objects of MATLAB (a timeseries, Simulink's output)"
 SAVE_THEM = "save their Time and Data as vectors (t = y.Time; y = y.Data)"
+_PORT = re.compile(r"(?:In|Out)\d*")
 MOST_COLUMNS = 64  # of a matrix of signals: a wider one is a picture or a model
 
 
@@ -122,6 +124,13 @@ def _share_clock(vectors: dict[str, Any]) -> dict[str, Any]:
     return {"time": vectors[first[0]], **named}
 
 
+def _find_place(signal: dict[str, Value]) -> str:
+    """Find what a signal of a capture is called: its block, `Model Root/Speed Out`, `"Model Root"/"Speed"/"Out1"`."""
+    texts = [text for name in ("Path", "Name") if isinstance(text := signal.get(name), str)]
+    parts = [part.strip(' "') for text in texts for part in text.split("/")]
+    return next((part for part in reversed(parts) if part and not _PORT.fullmatch(part)), "")
+
+
 def _collect(name: str, value: Value, vectors: dict[str, Any]) -> None:
     """Put the vectors in a value into `vectors`."""
     if isinstance(value, str):
@@ -130,6 +139,9 @@ def _collect(name: str, value: Value, vectors: dict[str, Any]) -> None:
         label = value.get("label")
         if isinstance(label, str) and label.strip() and isinstance(one := value.get("values"), np.ndarray):
             _collect(label.strip() if label.strip() not in vectors else f"{name} {label.strip()}", one, vectors)
+            return
+        if (place := _find_place(value)) and isinstance(one := value.get("Data"), np.ndarray):
+            _collect(place if place not in vectors else f"{name} {place}", one, vectors)
             return
         for inner, one in value.items():
             _collect(f"{name}.{inner}", one, vectors)

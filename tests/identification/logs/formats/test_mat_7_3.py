@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from motor_identification.logs.columns.said import Said
+from motor_identification.logs.formats import mat_7_3
 from motor_identification.logs.formats.mat_7_3 import read_variables_7_3
 from motor_identification.logs.formats.matlab import read_matlab
 from motor_identification.logs.formats.source import read_source
@@ -40,6 +41,37 @@ def test_matrices_and_structs(tmp_path: Path) -> None:
     table = source.table
     assert sorted(table.names) == ["both 1", "both 2", "log.deep.y", "log.u", "t"]
     assert table.numbers("log.u").tolist() == VOLTS.tolist() and table.numbers("both 2").tolist() == VOLTS.tolist()
+
+
+def capture(rows: int = 2) -> Tree:
+    """A capture of a real-time board: its clock in one struct, its signals in an array of structs."""
+    fields = {
+        "Data": [matrix(VOLTS[:, None]), matrix(SPEED[:, None])],
+        "Path": [text("Model Root/Volt"), text("Model Root/Speed Out")],
+        "Name": [text("In1"), text("Out1")],
+        "Type": [Stored(np.zeros(2, np.uint64), {"MATLAB_class": "char", "MATLAB_empty": 1})] * 2,
+    }
+    kept = {f"{name}{k}": one for name, values in fields.items() for k, one in enumerate(values[:rows])}
+    signals: Tree = {
+        name: Stored(np.zeros((rows, 1), np.uint64), {}, refers=tuple(f"#refs#/{name}{k}" for k in range(rows)))
+        for name in fields
+    }
+    return {"exp1": {"X": {"Data": matrix(TIME[:, None])}, "Y": signals}, "#refs#": kept}
+
+
+def test_an_array_of_structs_holds_signals_by_the_names_of_their_blocks(tmp_path: Path) -> None:
+    table = read_source(write(capture(), tmp_path / "capture.mat")).table
+    assert sorted(table.names) == ["Speed Out", "Volt", "exp1.X.Data"]
+    assert table.numbers("Volt").tolist() == VOLTS.tolist() and table.numbers("Speed Out").tolist() == SPEED.tolist()
+    (motor,) = import_log(tmp_path / "capture.mat", Said(unit="rad/s")).motors
+    assert [(run.samples[1].sample_time, len(run.samples)) for run in motor.log.runs] == [(1_000_000, 400)]
+
+
+def test_members_of_an_array_of_structs_are_numbered(monkeypatch: pytest.MonkeyPatch) -> None:
+    signals = read_variables_7_3(hdf5(capture()))["exp1"]["Y"]  # type: ignore[index,call-overload]
+    assert sorted(signals) == ["1", "2"] and signals["1"]["Path"] == "Model Root/Volt" and "Type" not in signals["1"]
+    monkeypatch.setattr(mat_7_3, "MOST_MEMBERS", 1)
+    assert sorted(read_variables_7_3(hdf5(capture()))["exp1"]["Y"]) == ["1"]  # type: ignore[index,call-overload]
 
 
 def signal(record: int, kind: str, block: str, name: str = "", count: int = 400) -> Tree:

@@ -33,6 +33,20 @@ def test_vectors_columns_and_structs(tmp_path: Path) -> None:
     )
 
 
+def test_a_captures_signals_have_the_names_of_their_blocks(tmp_path: Path) -> None:
+    """A real-time board's: an array of structs, whose texts end in the block's port, in quotes or not."""
+    fields = np.dtype([(name, "O") for name in ("Name", "Path", "Data")])
+    signals = np.zeros((1, 4), fields)
+    signals[0, 0] = ('"Model Root"/"Voltage"/"Out1"', "", TIME[None] * 3)
+    signals[0, 1] = ("In1", "Model Root/Speed Out", TIME[None] * 5)
+    signals[0, 2] = ("Out2", "Model Root/Speed Out", TIME[None] * 7)
+    signals[0, 3] = ("Out1", "", TIME[None] * 9)
+    savemat(tmp_path / "log.mat", {"exp1": {"X": {"Data": TIME[None]}, "Y": signals}})
+    table = read_matlab(tmp_path / "log.mat")
+    names = ["Speed Out", "Voltage", "exp1.X.Data", "exp1.Y.3 Speed Out", "exp1.Y.4.Data"]
+    assert sorted(table.names) == names and table.numbers("Speed Out") == pytest.approx(TIME * 5)
+
+
 @pytest.mark.parametrize("motion", ["obs_vel", "fitted"])
 def test_of_several_lengths_the_names_tell_the_motors(tmp_path: Path, motion: str) -> None:
     """A curve that was fitted, of more vectors, beside what was measured."""
