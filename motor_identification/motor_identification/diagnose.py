@@ -98,9 +98,11 @@ def diagnose(
 def _is_silent(found: Diagnosis) -> bool:
     """Decide whether something is or may be missing, and nothing of the table is named for it.
 
-    Where the fits have seen what they are judged by, a gap that something takes away is no reason to tell of it.
+    Where the fits have seen what they are judged by, a gap that something takes away is a reason to tell of it only
+    where sensor and random torque leave less.
     """
-    open_ = found.verdict is Verdict.UNDECIDED and not found.after.seen
+    above = found.gap_after > thresholds.EXPLAINED_GAP * found.noise_floor
+    open_ = found.verdict is Verdict.UNDECIDED and (above or not found.after.seen)
     return not found.findings and (open_ or found.verdict is Verdict.UNEXPLAINED)
 
 

@@ -83,7 +83,8 @@ EFFECTS = (
         "no output below this voltage: drop of the bridge",
         "coast",
         "a dead zone of the bridge (dead_zone)",
-        (P("dead_zone_voltage", "V", 0.0, 0.0, 0.5, VOLTAGE, starts=(0.03,)),),
+        # As that of friction: geared motors behind an L298 have been met that move from 95 of 255 on.
+        (P("dead_zone_voltage", "V", 0.0, 0.0, 0.8, VOLTAGE, starts=(0.03,)),),
         linear_onset=True,
         holds=True,
     ),

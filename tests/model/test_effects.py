@@ -93,6 +93,7 @@ def test_a_drag_leaves_a_motor_some_of_its_voltage(share: float, searched: bool)
     [
         ("static_friction", 12.0),  # a motor that ever started did so below the largest voltage
         ("torque_ripple", 36.0),  # an arm that the motor only swings
+        ("dead_zone", 9.6),  # a gearmotor that moved from 95 of 255 on, told by three levels above that
     ],
 )
 def test_what_holds_a_motor_is_searched_up_to_what_it_may_be(effect: str, most: float) -> None:

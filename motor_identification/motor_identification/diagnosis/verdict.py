@@ -147,10 +147,10 @@ def find_nearest(kept: Selection, base: float) -> Nearest | None:
     """Find the first few effects of a selection that take away most of what all of it does, if that is much.
 
     kept: what left the smallest gap on the way, though it explained not enough to be named. base: [rad/s] the gap
-    without any of it.
+    without any of it. Of motion that the fits have seen it has to be more.
     """
     gaps = _list_gaps(kept)
-    if not gaps or gaps[-1] > thresholds.NEAREST_GAP * base:
+    if not gaps or gaps[-1] > (thresholds.HALVED_GAP if kept.model.held.seen else thresholds.NEAREST_GAP) * base:
         return None
     enough = base**2 - thresholds.MOST_OF_NEAREST * (base**2 - gaps[-1] ** 2)
     count = next(number for number, gap in enumerate(gaps, 1) if gap**2 <= enough)

@@ -215,7 +215,8 @@ def _describe_no_finding(diagnosis: Diagnosis) -> str:
         missing = "may be" if _is_at_floor(diagnosis) else "is"  # a random torque, or gains, may be all of it
         return f"Something {missing} missing that this recording does not determine: {_describe_gap(diagnosis)}."
     if not diagnosis.after.confirms and not _is_at_floor(diagnosis):
-        return f"Something may be missing that one response does not tell: {_describe_gap(diagnosis)}."
+        text = f"Something may be missing that one response does not tell: {_describe_gap(diagnosis)}."
+        return " ".join(filter(None, (text, _describe_nearest(diagnosis))))
     ignored = find_ignored(diagnosis.after)
     if ignored is not None:
         return _describe_ignored(ignored)

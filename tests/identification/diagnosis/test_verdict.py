@@ -168,6 +168,15 @@ def test_what_comes_nearest_are_the_first_effects_that_do_most(gaps: list[float]
     assert found == (None if told is None else Nearest(told, pytest.approx(gaps[len(told) - 1])))
 
 
+@pytest.mark.parametrize(("share", "told"), [(0.99, True), (1.01, False)])
+def test_of_motion_that_was_fitted_the_nearest_takes_away_more(share: float, told: bool) -> None:
+    """As of a flywheel on a coasting bridge: 996 times the floor, and nothing was said but that."""
+    gap = share * 24.0 * thresholds.HALVED_GAP
+    after = replace(stub_model(gap), held=replace(stub_model(gap).held, seen=True))
+    step = step_of(stub_test("coast_drive", stub_model(24.0), gap, 100.0))
+    assert (find_nearest(selection_of(after, step), 24.0) is not None) is told
+
+
 def test_what_may_be_missing_is_not_told_to_be_unseen() -> None:
     hidden = ("coulomb_friction", "dead_zone", "backlash")
     assert leave_out_named(hidden, (), ()) == hidden

@@ -195,5 +195,7 @@ def test_what_comes_nearest_is_told_where_nothing_is_named(
     assert "nearest" not in summarize_diagnosis(replace(nothing, nearest=None))
     undecided = summarize_diagnosis(replace(nothing, verdict=Verdict.UNDECIDED))
     assert said in undecided and undecided.startswith("Something may be missing")
+    one = replace(nothing, verdict=Verdict.UNDECIDED, after=replace(nothing.after, confirms=False))
+    assert said in summarize_diagnosis(one) and "one response does not tell" in summarize_diagnosis(one)
     without = summarize_diagnosis(replace(nothing, verdict=Verdict.UNDECIDED, nearest=None))
     assert without.startswith("Nothing is missing that this recording could show")
