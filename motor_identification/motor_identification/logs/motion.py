@@ -33,6 +33,7 @@ from motor_model.gearing.gear import edge_angle
 from motor_model.sample import Info, Measurement
 
 _FAR = 5.5  # times between the steps of speeds and one count, below the 2π, 9.5 and 57.3 of mistaken units
+_FINER, _FEW_DIGITS = 100.0, 10.0  # times finer than a count, and last digits, that a step is one of digits
 # Counts of a row in motion, by median, from which on its speed says as much as the angle: one is then a quarter of it.
 # Of fewer, speeds of single rows are little but their rounding, which the angle does not sum up.
 MANY_A_ROW = 4.0
@@ -195,8 +196,13 @@ def _confirm_edges(form: CsvForm, signals: Signals, edges: int, count: float, wi
 
 
 def _check_steps(form: CsvForm, values: Floats, edges: int, count: float) -> None:
-    """Speeds that lie on a grid show the size of one count; far from what was said, a unit or a window is wrong."""
+    """Speeds that lie on a grid show the size of one count; far from what was said, a unit or a window is wrong.
+
+    But for a grid of printed digits that is finer than any wrong unit makes it: speeds that were timed between edges.
+    """
     step = find_lattice(values) if len(np.unique(values)) >= LEAST_LEVELS else 0.0
+    if step < count / _FINER and step <= _FEW_DIGITS * printed_digit(values):
+        return
     if step > 0.0 and not 1.0 / _FAR < step / count < _FAR:
         raise RecordingError(
             f"Speeds in {form.motion} change in steps of {step:.4g} {form.unit}, but one count ({edges} per "

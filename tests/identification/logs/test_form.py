@@ -139,6 +139,17 @@ def test_speeds_in_a_mistaken_unit_are_seen_by_their_steps(tmp_path: Path, unit:
         read(tmp_path, slower, right)
 
 
+def test_speeds_that_were_timed_between_edges_change_by_their_digits(tmp_path: Path) -> None:
+    """Of a slow motor, at 200 Hz: one count of 400 a turn in a row is 30 rpm, and the steps are 0.01."""
+    rows = [(f"{0.005 * k:.3f}", 2, f"{20.0 + 0.01 * (37 * k % 501):.2f}") for k in range(400)]
+    timed = replace(SPEED, unit="rpm", edges_per_revolution=400)
+    log = read(tmp_path, rows, timed)
+    assert log.info.edges_per_revolution == 0 and "were smoothed, or timed" in " ".join(log.findings)
+    coarse = [(time, volts, f"{float(value):.1f}") for time, volts, value in rows]
+    with pytest.raises(RecordingError, match="change in steps of 0.1 rpm, but one count .2800"):
+        read(tmp_path, coarse, replace(timed, edges_per_revolution=2800))
+
+
 def test_the_command_offers_them(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "static.csv").write_text("u,y\n" + "".join(f"{k},{160 * k - 32}\n" for k in range(1, 6)))
     common = ["--voltage", "u", "--unit", "deg/s"]
