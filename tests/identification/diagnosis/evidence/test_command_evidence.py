@@ -1,6 +1,7 @@
 """A motion that has nothing to do with its command is told from one that a random torque shakes."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -17,6 +18,12 @@ from motor_identification.reporting.diagnosis_text import summarize_diagnosis
 
 def diagnosed(recording: Recording) -> Diagnosis:
     return diagnose([recording], [], Request(()))
+
+
+@cache
+def following() -> Diagnosis:
+    """Of a motor that does what it is told."""
+    return diagnosed(noisy(0.5))
 
 
 def wandering() -> Recording:
@@ -40,7 +47,7 @@ def test_a_motion_that_does_not_follow_its_command_is_no_motor_with_nothing_miss
 
 @pytest.mark.parametrize(("limit", "value"), [("LEAST_EXPLAINED", 1.0), ("VARIES", 0.0), ("MATTERS", 0.0)])
 def test_every_limit_decides(limit: str, value: float, monkeypatch: pytest.MonkeyPatch) -> None:
-    held = diagnosed(noisy(0.5)).after
+    held = following().after
     assert find_ignored(held) is None
     monkeypatch.setattr(command_evidence, "LEAST_EXPLAINED", 1.0)
     monkeypatch.setattr(command_evidence, "MATTERS", 0.0)
