@@ -47,12 +47,13 @@ def test_effects_are_named_and_the_torque_is_measured(hidden: dict[str, float], 
     assert found.sensor_floor < 0.5 * found.noise_floor
 
 
+@pytest.mark.slow
 @pytest.mark.long
 @pytest.mark.parametrize(
     ("hidden", "variables"),
     [
         ({"speed_wave": 0.5, "speed_wave_scale": 12.0}, {"speed"}),
-        pytest.param({"load_friction": 0.15}, {"drive", "speed_voltage"}, marks=pytest.mark.slow),
+        ({"load_friction": 0.15}, {"drive", "speed_voltage"}),
     ],
     ids=["a wave over the speed", "friction of loaded gears"],
 )

@@ -232,6 +232,7 @@ def test_diagnosis_of_a_coasting_bridge_predicts_its_static_curve() -> None:
         assert low < float(np.sqrt(np.mean(np.square(errors)))) < high
 
 
+@pytest.mark.slow
 def test_diagnosis_of_steps_both_ways_by_a_coarse_encoder() -> None:
     """Dead band, asymmetry and lag of the EV3 motor, under a floor that hides them from sample to sample.
 

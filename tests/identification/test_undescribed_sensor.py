@@ -33,6 +33,7 @@ def test_friction_is_named_beside_white_noise_and_nothing_where_there_is_none() 
     assert 0.87 < found.gap_after / found.noise_floor < 1.1 and 0.9 < found.noise_floor < 1.15
 
 
+@pytest.mark.slow
 def test_a_sensor_that_is_held_and_late_is_a_delay() -> None:
     """Frames of 20 ms, 80 ms late, in a log of 5 ms; a motor with a time constant of 0.3 s. Or the motor is late."""
     log = check(held_late(noisy(0.3, ka=0.02), rows=4, late=16))

@@ -45,6 +45,7 @@ def found(ks: float) -> Diagnosis:
     return diagnose(runs(ks))
 
 
+@pytest.mark.slow
 def test_nothing_is_named_for_a_supply_that_differs() -> None:
     assert not found(0.0).findings and found(0.0).verdict.value != "unexplained"
     assert found(0.0).model.parameters.value("kv") == pytest.approx(PAPER_KV, rel=0.03)

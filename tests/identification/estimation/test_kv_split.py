@@ -72,9 +72,8 @@ def test_a_motor_without_viscous_friction_keeps_kv_whole() -> None:
     assert fit.parameters.torque_constant == 0.0 and not any("viscous" in note for note in fit.notes)
 
 
-@pytest.mark.parametrize(
-    "values, effect", [(SAG, "supply_sag"), pytest.param(WARM, "warm_up", marks=pytest.mark.slow)], ids=["sag", "warm"]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize(("values", "effect"), [(SAG, "supply_sag"), (WARM, "warm_up")], ids=["sag", "warm"])
 def test_viscous_friction_is_not_taken_for_other_effects(values: dict[str, float], effect: str) -> None:
     """With all of kv as back-EMF a sag had three false names beside it, and a warming-up had no name."""
     found = diagnose([viscous(values, 0.3, seed=2)])

@@ -1,8 +1,11 @@
 """By how much a command swings: a step by its size, a sine by its ways, and what a controller holds by nothing."""
 
+import itertools
+
 import numpy as np
 import pytest
 from plant import profiles, record
+from tiers import keep_fast
 
 from motor_identification.measurement.command_swing import (
     PLAY,
@@ -83,8 +86,7 @@ def sine(rate: Floats, offset: float = 0.0, noise: float = 0.0) -> Recording:
     return driven(offset + 5.0 * np.sin(phase) + noise * np.random.default_rng(1).standard_normal(len(phase)))
 
 
-@pytest.mark.parametrize("offset", [0.0, 7.0])
-@pytest.mark.parametrize("noise", [0.0, 0.1])
+@pytest.mark.parametrize(("offset", "noise"), keep_fast(itertools.product([0.0, 7.0], [0.0, 0.1]), (7.0, 0.1)))
 def test_a_frequency_that_goes_one_way_is_a_sweep(offset: float, noise: float) -> None:
     up = np.geomspace(0.5, 4.0, 2000)
     assert is_sweep(sine(up, offset, noise)) and is_sweep(sine(up[::-1], offset, noise))

@@ -99,7 +99,10 @@ def spoiled(recording: Recording, how: str, seed: int) -> tuple[Recording, int]:
     return replace(recording, edge_time=stamp), len(bad)
 
 
-@pytest.mark.parametrize("how", ["repeated", "going backwards", "anywhere near", "early", "a timer's wrap off"])
+HOW = ["repeated", "going backwards", "anywhere near", "early", "a timer's wrap off"]
+
+
+@pytest.mark.parametrize("how", keep_fast(HOW, "early", "going backwards"))
 @pytest.mark.parametrize("irregularity", keep_fast([0.0, 0.01], 0.01))
 def test_one_stamp_in_a_hundred_wrong_changes_nothing(how: str, irregularity: float) -> None:
     for seed, drive in enumerate((profiles.staircase(12.0, 4, 0.25), profiles.random(12.0, 4.0, seed=1))):

@@ -10,6 +10,7 @@ import pytest
 from recorded import as_period_speed, as_speed, without_count
 from scipy.signal import lfilter
 from swinging import held_late, noisy, recorded
+from tiers import keep_fast
 
 from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.request import SearchConfig
@@ -62,9 +63,7 @@ def without_ticks(monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(where, "list_tick_slots", lambda recordings: ())
 
 
-@pytest.mark.parametrize(
-    ("edges", "rate"), [(400, 50.0), (200, 200.0), pytest.param(44, 100.0, marks=pytest.mark.slow)]
-)
+@pytest.mark.parametrize(("edges", "rate"), keep_fast([(400, 50.0), (200, 200.0), (44, 100.0)], (200, 200.0)))
 def test_whole_ticks_of_a_timer_tell_the_slot(edges: int, rate: float) -> None:
     """Where so many edges come in a row that the motion alone tells none, or one that is 13 % off."""
     assert timing_of(logged(edges, rate)).slot == pytest.approx(tau / edges, rel=1e-4)

@@ -68,9 +68,10 @@ def test_the_clock_that_stamps_are_late_on_shows_in_the_motion(memory: float) ->
     )
 
 
-def test_rows_that_go_by_their_stamps_stay() -> None:
-    """However uneven they are."""
-    assert timing_of(logged(UNEVEN, ON_TIME, memory=0.7)).rows == AS_STAMPED
+@pytest.mark.parametrize("memory", keep_fast([0.0, 0.7], 0.0))
+def test_rows_that_go_by_their_stamps_stay(memory: float) -> None:
+    """However uneven they are, smoothed or not."""
+    assert timing_of(logged(UNEVEN, ON_TIME, memory=memory)).rows == AS_STAMPED
 
 
 @pytest.mark.parametrize(("limit", "kept"), [(1e2, False), (1e6, True)])

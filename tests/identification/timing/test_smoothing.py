@@ -80,7 +80,7 @@ def test_values_of_an_instant_are_told_when_smoothed_too() -> None:
 @pytest.mark.parametrize(
     ("kind", "number", "program"),
     [
-        ("bilinear", 0.854, ([0.073, 0.073], [1.0, -0.854])),
+        mark_slow("bilinear", 0.854, ([0.073, 0.073], [1.0, -0.854])),
         mark_slow("twice", 0.6, ([0.16], [1.0, -1.2, 0.36])),
         mark_slow("butterworth", 0.7, butter(2, 0.3)),
         ("mean", 7, ([1.0 / 7.0] * 7, [1.0])),
@@ -158,7 +158,7 @@ def test_a_short_log_tells_a_filter_where_that_is_much_likelier(monkeypatch: pyt
     assert memory_of(logged) > 0.0
 
 
-@pytest.mark.parametrize("memory", [0.0, 0.8])
+@pytest.mark.parametrize("memory", keep_fast([0.0, 0.8], 0.0))
 def test_printed_digits_are_no_counts_that_passed_no_filter(memory: float) -> None:
     """A slow motor's speeds of two decimals lie on a lattice of these, smoothed or not."""
     slow = noisy(0.5)

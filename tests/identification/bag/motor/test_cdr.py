@@ -23,9 +23,23 @@ ANY_SAMPLE = st.builds(Sample, LONGS, FLOATS, FLOATS, LONGS, LONGS, FLOATS, FLOA
 ANY_NAME = st.text(st.characters(codec="utf-8", exclude_characters="\0"), max_size=40)
 
 
-@settings(max_examples=30)  # of ten samples each
-@given(st.lists(st.tuples(ANY_SAMPLE, ANY_NAME, st.integers(-(2**31) * 10**9, 2**62)), min_size=1, max_size=20))
+ANY_ROWS = st.lists(st.tuples(ANY_SAMPLE, ANY_NAME, st.integers(-(2**31) * 10**9, 2**62)), min_size=1, max_size=20)
+
+
+@settings(max_examples=8)  # of ten samples each
+@given(ANY_ROWS)
 def test_it_says_what_rclpy_says(given: list[tuple[Sample, str, int]]) -> None:
+    assert_said_as_by_rclpy(given)
+
+
+@pytest.mark.slow
+@settings(max_examples=100)
+@given(ANY_ROWS)
+def test_whatever_is_sent_it_says_what_rclpy_says(given: list[tuple[Sample, str, int]]) -> None:
+    assert_said_as_by_rclpy(given)
+
+
+def assert_said_as_by_rclpy(given: list[tuple[Sample, str, int]]) -> None:
     stored = [
         serialize_message(speed_message(sample, time_message(max(stamp, 0)), name)) for sample, name, stamp in given
     ]

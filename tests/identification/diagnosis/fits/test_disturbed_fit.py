@@ -5,6 +5,7 @@ from functools import cache
 import numpy as np
 import pytest
 from plant import profiles, record
+from tiers import keep_fast
 
 from motor_identification.diagnosis.candidate_model import learn_errors
 from motor_identification.diagnosis.fits.disturbed_fit import (
@@ -65,16 +66,23 @@ def test_the_derivative_is_that_of_the_residuals() -> None:
         assert np.allclose(column, difference, rtol=1e-2, atol=1e-2 * np.abs(column).max())
 
 
+@pytest.mark.parametrize("seed", keep_fast(range(6), 1))
+def test_what_is_whitened_beside_it_stays_so_and_is_not_what_is_without(seed: int) -> None:
+    _ordinary, disturbed = fits(seed)
+    fit = whiten_beside_torque(disturbed, learn_errors(disturbed))
+    assert np.array_equal(fit.theta, disturbed.theta)
+    beside, alone = fit.residuals.on(fit.problem), fit_whitened(disturbed).residuals.on(fit.problem)
+    assert np.array_equal(beside.residuals(fit.theta), fit.residuals.residuals(fit.theta))
+    assert not np.allclose(alone.residuals(fit.theta)[:100], fit.residuals.residuals(fit.theta)[:100])
+    assert 0.95 < np.std(fit.residuals.residuals(fit.theta)) < 1.05
+
+
+@pytest.mark.slow
 def test_its_standard_errors_are_what_it_scatters_by() -> None:
     off, said = [], []
     for seed in range(6):
         _ordinary, disturbed = fits(seed)
         fit = whiten_beside_torque(disturbed, learn_errors(disturbed))
-        assert np.array_equal(fit.theta, disturbed.theta)
-        beside, alone = fit.residuals.on(fit.problem), fit_whitened(disturbed).residuals.on(fit.problem)
-        assert np.array_equal(beside.residuals(fit.theta), fit.residuals.residuals(fit.theta))
-        assert not np.allclose(alone.residuals(fit.theta)[:100], fit.residuals.residuals(fit.theta)[:100])
-        assert 0.95 < np.std(fit.residuals.residuals(fit.theta)) < 1.05
         said.append(estimate_uncertainty(fit, fit.residuals.jacobian(fit.theta)).errors)
         off.append(disturbed.theta - np.log([PAPER_KV, PAPER_KA]))
     ratio = np.sqrt(np.mean(np.square(off), axis=0) / np.mean(np.square(said), axis=0))

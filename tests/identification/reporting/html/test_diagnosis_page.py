@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from tiers import keep_fast
 
 from motor_identification.diagnosis.result import Diagnosis, Verdict
 from motor_identification.discrepancy.region_text import describe_error
@@ -162,7 +163,7 @@ Math.min(...[...document.querySelectorAll('svg')].map(e => e.clientWidth).filter
 
 
 @pytest.mark.skipif(BROWSER is None, reason="no Chromium here")
-@pytest.mark.parametrize(("width", "narrow"), [(1280, 0), (500, 2)])
+@pytest.mark.parametrize(("width", "narrow"), keep_fast([(1280, 0), (500, 2)], (500, 2)))
 def test_it_opens_in_a_browser(html: str, tmp_path: Path, width: int, narrow: int) -> None:
     """Without a console error, and nothing wider than the screen; a browser's window is 500 pixels wide at least."""
     (tmp_path / "report.html").write_text(html.replace("</body>", f"{MEASURE}</body>"), encoding="utf-8")
