@@ -7,6 +7,7 @@ from collections.abc import Generator
 from pathlib import Path
 
 import pytest
+from forked import share_server
 from friction import record_friction
 from hypothesis import settings
 from shares import share_out
@@ -22,6 +23,12 @@ if signal.getsignal(signal.SIGHUP) is signal.SIG_IGN:
 # A machine may be busy: no test asserts a time.
 settings.register_profile("any machine", deadline=None)
 settings.load_profile("any machine")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Where workers run the tests, they have one process between them that imports what programs need."""
+    if config.getoption("numprocesses", None) and not hasattr(config, "workerinput"):
+        share_server()
 
 
 @pytest.hookimpl(wrapper=True, tryfirst=True)

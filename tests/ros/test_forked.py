@@ -2,9 +2,12 @@
 
 import os
 import signal
+import socket
 import subprocess
+import time
 from pathlib import Path
 
+import forked
 import pytest
 from domains import free_domain
 from forked import Forked
@@ -69,3 +72,30 @@ def test_a_node_that_ends_leaves_no_shared_memory(tmp_path: Path, more: str) -> 
         assert program.returncode == 0
     mapped = [Path(line) for line in out.splitlines() if "fastrtps_port" not in line]
     assert mapped and [path for path in mapped if path.exists()] == []
+
+
+@pytest.mark.slow
+def test_processes_of_tests_share_one_that_imports_and_end_with_who_began_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(forked.SHARED, "")
+    owner, place = forked.share_server.__wrapped__()
+    file = tmp_path / "program.py"
+    file.write_text("print('ran')\n")
+    connect = forked.server.__wrapped__
+    for _ in range(2):
+        with connect() as asked:
+            monkeypatch.setattr(forked, "server", lambda asked=asked: asked)  # as the cache would
+            with run(file) as program:
+                assert program.communicate(timeout=PATIENCE) == ("ran\n", "") and program.returncode == 0
+    owner.close()
+    end = time.monotonic() + PATIENCE
+    while can_connect(os.environ[forked.SHARED]):
+        assert time.monotonic() < end, "it goes on without its owner"
+        time.sleep(0.01)
+    place.cleanup()
+
+
+def can_connect(path: str) -> bool:
+    with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as asked:
+        return asked.connect_ex(path) == 0

@@ -1,7 +1,8 @@
 """Run Python files in forks of a process that has what they need: most of a short process's time is imports.
 
 What is asked for comes over a socket, see `forked.Forked`: words, environment and directory, with file descriptors for
-standard input, output, error, and a pipe that is told the process's number and, in the end, its status.
+standard input, output, error, and a pipe that is told the process's number and, in the end, its status. Workers of
+xdist have one process that imports, and each a fork of it that serves.
 """
 
 import atexit
@@ -12,6 +13,7 @@ import importlib
 import json
 import os
 import runpy
+import select
 import signal
 import socket
 import sys
@@ -51,8 +53,11 @@ IMPORTED = (
 )
 
 
-def main(sock: socket.socket) -> str:
-    """Fork for whoever asks, until nobody can any more; returns in the fork, with the file to run."""
+def main(sock: socket.socket, owner: socket.socket | None) -> str:
+    """Fork for whoever asks, until nobody can any more; returns in the fork, with the file to run.
+
+    With an owner, the socket is one that listens, for as long as that process is there.
+    """
     for module in IMPORTED:
         importlib.import_module(module)
     motor_control.warm_up.main()
@@ -61,6 +66,8 @@ def main(sock: socket.socket) -> str:
     gc.collect()
     gc.freeze()
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)
+    if owner is not None:
+        sock = accept_clients(sock, owner)
     while True:
         data, files, _, _ = socket.recv_fds(sock, 1 << 20, 4)
         if not data:
@@ -71,6 +78,19 @@ def main(sock: socket.socket) -> str:
             return become(json.loads(data), files)
         for file in files:
             os.close(file)
+
+
+def accept_clients(listener: socket.socket, owner: socket.socket) -> socket.socket:
+    """Fork for every process of tests that connects, until the owner has ended; returns in the fork."""
+    while True:
+        if owner in select.select([listener, owner], [], [])[0]:
+            os._exit(0)
+        client, _ = listener.accept()
+        if os.fork() == 0:
+            listener.close()
+            owner.close()
+            return client
+        client.close()
 
 
 def wait_for_sleep() -> None:
@@ -163,4 +183,5 @@ def run_file(path: str) -> None:
 
 
 if __name__ == "__main__":
-    run_file(main(socket.socket(fileno=int(sys.argv[1]))))
+    given = [socket.socket(fileno=int(word)) for word in sys.argv[1:]]
+    run_file(main(given[0], given[1] if len(given) > 1 else None))

@@ -1,26 +1,49 @@
 """Processes of our Python programs that are forked instead of started anew; see `fork_server.py`."""
 
+import contextlib
 import json
 import os
 import select
 import socket
 import subprocess
 import sys
+import tempfile
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 LOST = 1 << 8  # the status of a failure: its supervising process was killed, and nobody can tell how it ended
 SERVER = Path(__file__).with_name("fork_server.py")
+SHARED = "MOTOR_TESTS_FORK_SERVER"  # where the workers of xdist find theirs: in a directory that is this user's alone
 
 
 @cache
 def server() -> socket.socket:
-    """Start the process that forks, one for each process of the tests; it ends with it."""
+    """Start the process that forks, or ask the workers' one for a fork; it ends with this process of the tests."""
+    if path := os.environ.get(SHARED):
+        asked = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        asked.connect(path)
+        return asked
     ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
     subprocess.Popen([sys.executable, str(SERVER), str(theirs.fileno())], pass_fds=[theirs.fileno()])
     theirs.close()
     return ours
+
+
+@cache
+def share_server() -> tuple[socket.socket, "tempfile.TemporaryDirectory[str]"]:
+    """Start one process that forks for all workers of this one; what is returned keeps it and its socket there."""
+    place = tempfile.TemporaryDirectory(prefix="fork_server_")
+    path = str(Path(place.name) / "socket")
+    ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    listener = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    with contextlib.suppress(OSError), listener, theirs:  # a path may be too long: every worker then has its own
+        listener.bind(path)
+        listener.listen()
+        files = [listener.fileno(), theirs.fileno()]
+        subprocess.Popen([sys.executable, str(SERVER), *map(str, files)], pass_fds=files)
+        os.environ[SHARED] = path
+    return ours, place
 
 
 class Forked(subprocess.Popen[str]):
