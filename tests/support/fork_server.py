@@ -10,6 +10,8 @@ import contextlib
 import ctypes
 import gc
 import importlib
+import importlib.util
+import inspect
 import json
 import os
 import runpy
@@ -23,7 +25,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import motor_control.warm_up
-import motor_identification.service.warm_up
+import motor_identification.service.warm_up  # before what may load NumPy: they keep BLAS to one thread
 
 PR_SET_PDEATHSIG = 1  # a signal to the child when its parent ends (prctl, Linux)
 
@@ -60,6 +62,10 @@ def main(sock: socket.socket, owner: socket.socket | None) -> str:
     """
     for module in IMPORTED:
         importlib.import_module(module)
+    for module in ("motor_msgs", "rcl_interfaces", "std_msgs", "std_srvs", "diagnostic_msgs"):
+        load_type_support(module)
+    load_type_support("sensor_msgs", "JointState")
+    inspect.getmodule(sys._getframe())  # as rclpy does for its first log line: through all that is imported
     motor_control.warm_up.main()
     motor_identification.service.warm_up.prepare()
     wait_for_sleep()
@@ -78,6 +84,17 @@ def main(sock: socket.socket, owner: socket.socket | None) -> str:
             return become(json.loads(data), files)
         for file in files:
             os.close(file)
+
+
+def load_type_support(package: str, name: str = "") -> None:
+    """Load what rclpy loads for the messages and services of a package, or for one, when they are first used."""
+    from rclpy.type_support import check_for_type_support
+
+    for kinds in ("msg", "srv"):
+        if importlib.util.find_spec(f"{package}.{kinds}") is not None:
+            for kind in vars(importlib.import_module(f"{package}.{kinds}")).values():
+                if isinstance(kind, type) and name in ("", kind.__name__):
+                    check_for_type_support(kind)
 
 
 def accept_clients(listener: socket.socket, owner: socket.socket) -> socket.socket:
