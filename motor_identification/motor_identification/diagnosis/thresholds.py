@@ -128,8 +128,8 @@ LEAST_WAVES, MANY_WAVES = 6.0, 30.0
 # than such a load by 190 and more; a friction that goes with the angle was likelier as a load by 402, in 3.9 turns.
 LEAST_TURNS = 1.0
 # The same of a load that goes round once a turn, and of the excess over the floor, what it takes away at least.
-# Measured: 0.99 of that friction. Other cycles may be any slow torque where the fits have seen them; held out, they were
-# 0.95 and 0.92 of a ripple of four a turn, in one turn to and fro.
+# Measured: 0.99 of that friction. Other cycles may be any slow torque where the fits have seen them. They were
+# 0.95 and 0.92, held out, of a ripple of four a turn that a motor went to and fro over in one turn.
 LEAST_TURNS_OF_LOAD, NEARLY_ALL_OF_GAP = 3.0, 0.9
 # Likelihoods that the search for a candidate's errors may ask for, and that for a model's to begin with.
 CANDIDATE_EVALUATIONS, FINAL_EVALUATIONS = 40, 120

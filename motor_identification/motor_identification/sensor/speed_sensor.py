@@ -8,7 +8,7 @@ import numpy as np
 from motor_identification.recording import Bools, Floats, Integers, Recording
 from motor_identification.sensor.held_samples import find_frames
 from motor_identification.sensor.unseen_starts import mark_unseen_starts
-from motor_identification.sensor.value_lattice import find_lattice
+from motor_identification.sensor.value_lattice import find_lattice, measure_blur
 from motor_identification.sensor.white_noise import LEAST_SAMPLES, estimate_white_noise
 from motor_identification.sensor.wrong_speeds import mark_silent_rows, mark_wrong_speeds
 from motor_model.sample import Info
@@ -33,6 +33,7 @@ MOST_COUNTS, WHOLE_DIGIT = 20_000, 1e-2
 RANGES, BITS, SAME_RANGE = (1.0, 2.0, 2.5, 3.3, 5.0), (8, 10, 12, 13, 14, 16), 1e-4
 OTHER_ROWS = 0.1  # relative: rows of one run that are not those of the log's typical one
 LEAST_COUNTED = 0.03  # of the time between values: a mean over less is an instant's value, and no count over it
+SHARPER = 0.7  # times what the multiples of a step scatter by: they are those of their own rows' lengths
 SAME_ROW = 1e-3  # relative: rows that differ by no more have one length
 LONGEST_ROW = 5.0  # windows: what is longer is a pause, in which nothing may have been counted
 SAME_PERIOD = 1e-6  # relative: a window that was not said is set to the sample period
@@ -78,10 +79,10 @@ def find_speed_sensor(recording: Recording) -> SpeedSensor:
     step, sigma, edges = find_noise(speed[row], recording.voltage[row], said, window, counted)
     lengths = np.diff(time, prepend=time[0] - window)[row]
     lengths = np.where(lengths < LONGEST_ROW * window, lengths, window)
-    if sigma > 0.0 and frames is None and is_assumed(recording.info) and np.std(lengths) > SAME_ROW * window:
-        share = lengths / window  # counts of rows that differ lie on a lattice by their own lengths
-        own, sigma_of_own, counts = find_noise(speed[row] * share, recording.voltage[row], 0, window, counted)
-        if own > 0.0:
+    if not said and frames is None and is_assumed(recording.info) and np.std(lengths) > SAME_ROW * window:
+        by_length = speed[row] * lengths / window  # counts of rows that differ lie on a lattice by their own lengths
+        own, sigma_of_own, counts = find_noise(by_length, recording.voltage[row], 0, window, counted)
+        if own > 0.0 and (step <= 0.0 or measure_blur(by_length, own) < SHARPER * measure_blur(speed[row], step)):
             return SpeedSensor(row, made, window, lag, frame, own, sigma_of_own, counts, wrong, lengths)
     return SpeedSensor(row, made, window, lag, frame, step, sigma, edges, wrong)
 

@@ -23,8 +23,15 @@ LEAST_SCATTER = 1e-3  # of a step: better than that is no more evidence
 MOST_COARSE = 1.9  # times a step that was found: half of it fits as well
 LEAST_PLACES = 4  # different multiples that must occur
 SAME_LEVEL = 1e-3  # of the largest: sizes that differ by no more are one, in a last digit that a filter's undoing left
+FEWEST_COUNTS = 2  # different sizes above 0, of rows that jitter: one is a motor that runs or stands
 CHANGES_OF_ONE = 200  # changes where there is one size: fewer are a motor that runs or stands
 CHANGES_OF_EACH = 20  # changes for each of so few sizes: a motor's speeds between some steps do not come again as often
+# Counts of rows that jitter: how far the RMS of those up to 4 may be from whole ones, for each of it (a control loop's
+# rows jitter by 1 to 5 %), and how many are there and back again within a row, for each size: no motor's speed does so.
+FEW, MOST_BLUR, THERE_AND_BACK = 4, 0.06, 20
+LOWEST = 0.02  # of the sizes above 0, and times that size, below which all are one count
+ONE_COUNT = 1.5
+SURE = 5.0  # standard errors that the mean of the sizes of so many counts may be off
 CHANCE = 1e-4  # that values without a lattice are given one
 PARTS = (1.0, 0.5, 0.25)  # of the largest value: a window that jitters blurs large values, not small ones
 
@@ -43,7 +50,14 @@ def find_lattice(values: Floats, finest: float = FINEST) -> float:
         step = _find_step(some.tobytes(), finest) if len(some) >= LEAST_PLACES else 0.0
         if step > 0.0:
             return step
-    return _find_small_counts(values, levels)
+    return _find_small_counts(values, levels) or _find_blurred_counts(values)
+
+
+def measure_blur(values: Floats, step: float) -> float:
+    """Measure the RMS by which the values (K,) of a few counts are off from so many steps, for each of a count."""
+    numbers = np.rint(np.abs(values) / step)
+    few = (numbers >= 1.0) & (numbers <= FEW)
+    return sqrt(float(np.mean((np.abs(values[few]) / (numbers[few] * step) - 1.0) ** 2))) if few.any() else 0.0
 
 
 def _find_small_counts(values: Floats, levels: Floats) -> float:
@@ -61,6 +75,40 @@ def _find_small_counts(values: Floats, levels: Floats) -> float:
     changes = np.count_nonzero(np.abs(np.diff(values)) > same)
     often = changes >= (CHANGES_OF_ONE if len(sizes) == 1 else CHANGES_OF_EACH * len(sizes))
     return step if all_there and often and _scatter(levels, step) < LEAST_SCATTER else 0.0
+
+
+def _find_blurred_counts(values: Floats) -> float:
+    """Find the step of a few counts a row whose rows jitter, which values (K,) go to and fro between; 0 without."""
+    sizes = np.abs(values)
+    same = SAME_LEVEL * float(sizes.max(initial=0.0))
+    moving = np.sort(sizes[sizes > same])
+    if len(moving) in (0, len(sizes)):
+        return 0.0
+    lowest = moving[int(LOWEST * len(moving))]
+    numbers = np.rint(sizes / np.median(moving[moving < ONE_COUNT * lowest]))
+    few = [sizes[numbers == number] for number in range(1, FEW + 1) if np.any(numbers == number)]
+    if len(few) < min(float(numbers.max()), FEW) or len(few) < FEWEST_COUNTS or not _are_multiples(few):
+        return 0.0
+    before, inside, after = numbers[:-2], numbers[1:-1], numbers[2:]
+    excursions = np.count_nonzero((before == after) & (inside != before) & (np.maximum(before, inside) <= FEW))
+    return _refine_few(few) if excursions >= THERE_AND_BACK * len(few) else 0.0
+
+
+def _refine_few(few: list[Floats]) -> float:
+    """Least squares of the sizes of 1, 2, 3 … counts = number × step."""
+    numbers = np.repeat(np.arange(1.0, len(few) + 1.0), [len(some) for some in few])
+    return float(numbers @ np.concatenate(few) / (numbers @ numbers))
+
+
+def _are_multiples(few: list[Floats]) -> bool:
+    """Whether sizes of 1, 2, 3 … counts are so many steps, but for what they scatter by."""
+    step = _refine_few(few)
+    for number, some in enumerate(few, 1):
+        beside = some / (number * step) - 1.0
+        blur = sqrt(float(np.mean(beside**2)))
+        if blur > MOST_BLUR or abs(float(np.mean(beside))) > SAME_LEVEL + SURE * blur / sqrt(len(some)):
+            return False
+    return True
 
 
 @lru_cache(maxsize=64)  # a recording's intervals are made, and its sensor is looked at, again and again

@@ -166,6 +166,20 @@ def test_counts_that_were_divided_by_their_own_rows_are_counts() -> None:
     )
 
 
+@pytest.mark.parametrize(("own", "stamps"), [(True, 6), (True, 4), (False, 6)])
+def test_few_counts_belong_to_the_rows_they_were_divided_by(own: bool, stamps: int) -> None:
+    """0, 1 or 2 counts in rows that jitter by 2 %: by their own lengths, or all alike."""
+    log, random = without_count(as_speed(recorded(3, 28))), np.random.default_rng(6)
+    rows = 0.004 * (1.0 + 0.02 * random.standard_normal(len(log)))
+    counts = np.floor(1.0 + 0.9 * np.sin(np.arange(len(log)) / 150.0) + random.uniform(0.0, 1.0, len(log)))
+    counts[:20] = 0.0
+    time = np.round(np.cumsum(rows), stamps)
+    speed = np.round(counts * tau / 28 / (rows if own else 0.004), 2)
+    info = replace(log.info, sample_period=0.004, speed_window=0.004, speed_lag=0.002)
+    found = find_speed_sensor(replace(log, speed=speed, sample_time=np.round(1e9 * time).astype(np.int64), info=info))
+    assert (found.sigma, found.edges_per_revolution, found.lengths is not None, found.wrong) == (0.0, 28, own, 0)
+
+
 def test_lengths_of_rows_matter_only_where_they_differ() -> None:
     assert find_speed_sensor(counted_by_own_rows(1e-5)).lengths is None
     assert find_speed_sensor(noisy(0.5)).lengths is None

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from motor_identification.sensor.value_lattice import CHANGES_OF_ONE, find_lattice
+from motor_identification.sensor.value_lattice import CHANGES_OF_ONE, find_lattice, measure_blur
 
 SAMPLES = 2000
 
@@ -86,3 +86,28 @@ def test_one_count_that_comes_and_goes_all_the_time_is_a_lattice() -> None:
         counts == 0.0, 3e-7 * np.arange(len(counts)) / len(counts), counts
     )  # what a filter's undoing leaves
     assert find_lattice(rest * 4.488) == pytest.approx(4.488, rel=1e-5)
+
+
+def few(low: float, high: float, jitter: float, rows: int = 1000) -> np.ndarray:
+    """Counts a row of a slow motor, over rows that jitter by a share of their own length; it stands at the start."""
+    random = np.random.default_rng(3)
+    counts = np.floor(np.linspace(low, high, rows) + random.uniform(0.0, 1.0, rows))
+    counts[:20] = 0.0
+    return 4.488 * counts / (1.0 + jitter * np.clip(random.standard_normal(rows), -2.5, 2.5))
+
+
+@pytest.mark.parametrize("jitter", [0.005, 0.02, 0.05])
+@pytest.mark.parametrize("most", [1.6, 2.0, 3.0])
+def test_rows_that_jitter_do_not_hide_a_few_counts(jitter: float, most: float) -> None:
+    """They are told by going to and fro between the same sizes, which the speed of no motor does from row to row."""
+    assert find_lattice(few(0.2, most, jitter)) == pytest.approx(4.488, rel=0.01)
+    assert measure_blur(few(0.2, most, jitter), 4.488) == pytest.approx(jitter, rel=0.15)
+    assert find_lattice(few(0.2, most, 5.0 * jitter)) == 0.0 or jitter == 0.005  # no more than 6 %
+    assert find_lattice(np.sort(few(0.2, most, jitter))) == 0.0
+
+
+def test_speeds_of_a_motor_at_a_few_voltages_are_no_counts() -> None:
+    """A quick motor between 0, 5 and 10 V has three speeds, with noise, but keeps each for some rows."""
+    random = np.random.default_rng(4)
+    held = np.repeat(random.integers(0, 3, 400), 3)
+    assert find_lattice(9.0 * held * (1.0 + 0.01 * random.standard_normal(len(held)))) == 0.0
