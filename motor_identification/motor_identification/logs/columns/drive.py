@@ -88,7 +88,9 @@ def duty_drive(heading: Heading, values: Floats, full: float | None = None) -> D
             None, "as a share, as no value is above 1, whatever its name says (otherwise: --full-duty 100)", 1.0
         )
     if largest in FULL_WHERE_REACHED:
-        return Drive(None, f"as a duty of ±{largest:g} (assumed; otherwise: --full-duty)", largest)
+        levels = np.unique(np.abs(values[values != 0.0]))
+        half = len(levels) == 1 and any(largest == full // 2 for full in FULL_DUTIES)  # one level is as likely half
+        return Drive(None, f"as a duty of ±{largest:g} (assumed; otherwise: --full-duty)", largest, sure=not half)
     if why := _why_in_volts(heading, values, largest):
         return Drive(1.0, f"in V (assumed, as {why}; otherwise: --full-duty, --voltage-scale)")
     if heading.quantity is None and largest < 100.0 and not np.any(values % 1.0):  # of 100 or of 255: nothing tells

@@ -46,6 +46,17 @@ def test_a_timer_that_counts_to_a_number_of_its_own(top: float, sure: bool) -> N
     assert duty_drive(read_heading("pwm"), values, 20_000.0).sure
 
 
+@pytest.mark.parametrize(
+    ("levels", "sure"),
+    [((0, 127), False), ((0, 127, -127), False), ((0, 64, 127), True), ((0, 2047), False), ((0, 400), True)],
+)
+def test_one_level_may_be_half_of_what_there_is(levels: tuple[int, ...], sure: bool) -> None:
+    """`analogWrite(pin, 127)` is half of 255, and all that a VEX has: the numbers do not tell which."""
+    values = np.tile(np.array(levels, dtype=float), 20)
+    assert duty_drive(read_heading("pwm"), values).sure is sure
+    assert duty_drive(read_heading("pwm"), values, 255.0).sure
+
+
 @pytest.mark.parametrize(("top", "millivolts"), [(1999.0, False), (2000.0, True), (60_000.0, True), (60_001.0, False)])
 def test_a_voltage_of_thousands_is_in_millivolts(top: float, millivolts: bool) -> None:
     values = np.rint(top * WAVE)
