@@ -104,6 +104,8 @@ def test_nothing_is_taken_of_a_command_that_does_not_answer() -> None:
     noisy = replace(loop, speed=loop.speed + random.normal(0.0, 0.3 * ONE, len(loop.speed)))  # no counts
     noisy = replace(noisy, voltage=-0.22 * noisy.speed)
     assert take_fed_back(noisy.signals(), ROW) is None
+    anywhere = ONE * random.integers(0, 20, len(loop.time)).astype(float)  # as of a mean that was taken apart wrongly
+    assert take_fed_back(replace(loop, speed=anywhere, voltage=-0.22 * anywhere).signals(), ROW) is None
     short = loop.signals().only(np.arange(len(loop.time)) < FEWEST_ROWS)
     assert take_fed_back(short, ROW) is None
 
