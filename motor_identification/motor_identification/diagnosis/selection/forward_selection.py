@@ -9,9 +9,8 @@ from dataclasses import replace
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import refit_without, split_kv
-from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold, share_explained
+from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.effect_test import (
-    EFFECT_ORDER,
     choose_finding,
     count_parameters,
     is_supported,
@@ -21,6 +20,12 @@ from motor_identification.diagnosis.effect_test import (
 )
 from motor_identification.diagnosis.evidence.likeness import find_rivals
 from motor_identification.diagnosis.evidence.line_evidence import has_few_turns
+from motor_identification.diagnosis.selection.hidden_pairs import (
+    find_closing_pair,
+    find_pair,
+    may_add_pair,
+    may_hide_pair,
+)
 from motor_identification.diagnosis.selection.promised_pairs import (
     find_promised_pair,
     list_promised,
@@ -56,7 +61,7 @@ def select_forward(
         refused = any(is_supported(test) and not test.relevant for test in tests)
         refused = refused or (plain and selection.model.at_floor and promises_anything(selection))
         pair = find_pair(selection, tests, reporter) if pairs and may_hide_pair(selection) else []
-        if not pair and pairs and not plain and _may_add_pair(selection):
+        if not pair and pairs and not plain and may_add_pair(selection):
             pair = find_promised_pair(selection) or find_closing_pair(selection, tests, reporter)
         selection = replace(selection, refused=refused)
         if not pair:
@@ -65,18 +70,6 @@ def select_forward(
         if not further.model.complete and pair[-1].explains <= thresholds.STAND_IN_SHARE:
             return selection
         selection = further
-
-
-def find_closing_pair(
-    selection: Selection, tests: Sequence[CandidateTest], reporter: ProgressReporter
-) -> list[SelectionStep]:
-    """Find the two effects of which one is likely beside a random torque, but opens the gap that the other closes.
-
-    A torque is learned of what a model lacks, and large enough to make it complete: of friction on a coasting bridge.
-    """
-    opening = [test for test in tests if is_supported(test) and test.model.held.gap > test.held_before.gap]
-    pair = find_pair(selection, opening, reporter) if opening else []
-    return pair if pair and pair[-1].found.model.held.gap < selection.model.held.gap else []
 
 
 def _may_add(finding: CandidateTest, selection: Selection) -> bool:
@@ -104,18 +97,6 @@ def verify_findings(selection: Selection, tests: list[CandidateTest]) -> tuple[S
         tests = [replace(test, before=again) if test.before is selection.model else test for test in tests]
         selection = replace(selection, model=again)
     return selection, tests
-
-
-def may_hide_pair(selection: Selection) -> bool:
-    """Decide whether a gap is left in which two effects may hide each other, and not too much was found before.
-
-    One response tells no two.
-    """
-    return _may_add_pair(selection) and not selection.model.complete
-
-
-def _may_add_pair(selection: Selection) -> bool:
-    return len(selection.steps) < thresholds.PAIR_MOST_STEPS and selection.model.held.confirms
 
 
 def _try_all_effects(selection: Selection, reporter: ProgressReporter) -> list[CandidateTest]:
@@ -166,49 +147,3 @@ def _list_promised(selection: Selection) -> list[str]:
 
 def _is_periodic(effect: str) -> bool:
     return EFFECT_BY_NAME[effect].periodic
-
-
-def list_partners(tests: Sequence[CandidateTest]) -> list[CandidateTest]:
-    """List the tests, best first, whose effects are tried together with any other: likely, if not relevant alone."""
-    likely = [test for test in tests if test.evidence > likelihood_threshold() and not _is_periodic(test.effect)]
-    likely.sort(key=lambda test: (-round(test.evidence / thresholds.TIE_LIKELIHOOD), EFFECT_ORDER[test.effect]))
-    return likely[: thresholds.PAIR_PARTNERS]
-
-
-def list_compromises(tests: Sequence[CandidateTest]) -> list[CandidateTest]:
-    """List the tests of what another effect comes with only: unlikely alone, though the gap falls.
-
-    So is the Coulomb friction of a motor that breaks away, which holds it too little and slows it too much.
-    """
-    falling = [test for test in tests if test.explains > thresholds.COMPROMISE_SHARE]
-    return [test for test in falling if test.evidence <= likelihood_threshold() and _list_dependent(test.effect)]
-
-
-def _list_dependent(effect: str) -> list[str]:
-    """List the effects that come with another one only."""
-    return [one.name for one in EFFECT_BY_NAME.values() if one.implies == effect]
-
-
-def find_pair(selection: Selection, tests: Sequence[CandidateTest], reporter: ProgressReporter) -> list[SelectionStep]:
-    """Find the two effects that explain most together where neither does alone, as two steps, if there are such."""
-    current, found = selection.model, []
-    partners, compromises = list_partners(tests), list_compromises(tests)
-    for i, first in enumerate([*partners, *compromises]):
-        others = list_candidates(first.model.effects, current.held, current.beside_torque)
-        tried = others if i < len(partners) else _list_dependent(first.effect)
-        left = [effect for effect in others if effect in tried and not _is_periodic(effect)]
-
-        def heard(test: CandidateTest, first: CandidateTest = first) -> None:
-            reporter.report(f"{first.effect} with {test.effect}", 0.5, test.effect, test.model.held.gap)
-
-        seconds = try_effects(first.model, selection.hold_out, left, selection.workers, heard)
-        second = choose_finding(seconds)
-        if second is None:
-            continue
-        together = share_explained(current.held.gap, second.model.held.gap, second.model.unpredictable_gap)
-        steps = [
-            SelectionStep(current, first, tuple(tests), (), together),
-            SelectionStep(first.model, second, tuple(seconds), find_rivals(second, seconds), together),
-        ]
-        found.append((round(second.model.likelihood / thresholds.TIE_LIKELIHOOD), -i, steps))  # of equals the first
-    return max(found)[2] if found else []

@@ -6,7 +6,8 @@ from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.effect_test import is_there_from_the_start, sort_by_table, try_effects
-from motor_identification.diagnosis.selection.forward_selection import find_pair, list_partners, select_forward
+from motor_identification.diagnosis.selection.forward_selection import select_forward
+from motor_identification.diagnosis.selection.hidden_pairs import find_pair, list_partners
 from motor_identification.diagnosis.selection.selection import Selection, SelectionStep, begin_selection
 from motor_identification.progress import ProgressReporter
 from motor_identification.validation.instants import needs_instant
