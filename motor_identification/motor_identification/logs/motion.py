@@ -38,6 +38,7 @@ _FINER, _FEW_DIGITS = 100.0, 10.0  # times finer than a count, and last digits, 
 # Of fewer, speeds of single rows are little but their rounding, which the angle does not sum up.
 MANY_A_ROW = 4.0
 MANY_FED_BACK = 16.0  # the same where a loop's command answers the rounding: what it says of the next row is no motion
+AS_SAID = 0.02  # relative: how far a count that is seen in rows of one period may be from the encoder's that was said
 FED_BACK = (
     "Speeds in {} are counts of single rows, which the command answers (a speed loop on them): they are summed up to "
     "positions, in which their rounding is not (assumed; otherwise: --speed-window)."
@@ -79,10 +80,9 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
     signals, lengths = (signals, []) if form.speed_window else divide_by_own_rows(signals, form.nominal_period)
     signals, signs = _give_own_signs(form, signals)
     summing = form.speed_window is None and form.speed_lag is None and not form.count_quantum
-    fed_back = take_fed_back(signals, info.sample_period) if summing else None
-    if fed_back and _median_size(fed_back[0].motion) < MANY_FED_BACK * fed_back[1]:
-        counted = _count_rows(form, info, *fed_back)
-        return replace(counted, findings=(*lengths, *signs, FED_BACK.format(form.motion), *counted.findings))
+    fed_back = _sum_up_fed_back(form, info, signals) if summing else None
+    if fed_back is not None:
+        return replace(fed_back, findings=(*lengths, *signs, *fed_back.findings))
     signals, turned = (signals, []) if form.signs_as_they_are else turn_round(signals, is_speed=True)
     signals, means, one = (signals, [], inf) if form.speed_window else _undo_running_mean(signals, info.sample_period)
     values = signals.motion
@@ -142,6 +142,20 @@ def _undo_running_mean(signals: Signals, period: float) -> tuple[Signals, list[s
         "otherwise: --speed-window)."
     )
     return replace(signals, motion=motion), [said], size_of_count(signals.motion, rows)
+
+
+def _sum_up_fed_back(form: CsvForm, info: Info, signals: Signals) -> Motion | None:
+    """Sum up what single rows counted and a loop's command answers; None of other speeds, or another encoder's."""
+    taken = take_fed_back(signals, info.sample_period)
+    if taken is None:
+        return None
+    counted, one = taken
+    seen, edges = one * (form.unit_size or 1.0) * info.sample_period, form.edges_per_revolution
+    as_said = edges is None or abs(seen / edge_angle(edges, form.gear) - 1.0) < AS_SAID
+    if not as_said or _median_size(counted.motion) >= MANY_FED_BACK * one:
+        return None
+    motion = _count_rows(form, info, counted, one)
+    return replace(motion, findings=(FED_BACK.format(form.motion), *motion.findings))
 
 
 def _median_size(values: Floats) -> float:

@@ -81,6 +81,14 @@ def run(filtered: Filter = passes, jitter: float = 0.0, closed: bool = True, row
     return Loop(time, volts, filtered(made), counts)
 
 
+def write(loop: Loop, folder: Path) -> Path:
+    log = folder / "log.csv"
+    columns = zip(loop.time, loop.voltage, loop.speed, strict=True)
+    rows = "\n".join(f"{time:.4f},{volts:.4f},{speed:.5f}" for time, volts, speed in columns)
+    log.write_text(f"time [s],voltage [V],speed [rad/s]\n{rows}\n")
+    return log
+
+
 @pytest.mark.parametrize(
     ("filtered", "jitter"),
     [(passes, 0.0), (forgets, 0.0), (averages, 0.0), (taught, 0.0), (passes, 0.02), (forgets, 0.02)],
@@ -119,14 +127,18 @@ def test_a_pole_is_a_ratio_that_comes_again_and_again() -> None:
     assert find_pole(np.ones(1000)) == 0.0 and find_pole(np.zeros(0)) == 0.0
 
 
+@pytest.mark.parametrize(("edges", "summed"), [(22, True), (44, False)])
+def test_counts_of_another_encoder_than_was_said_are_not_summed_up(edges: int, summed: bool, tmp_path: Path) -> None:
+    log = write(run(), tmp_path)
+    (motor,) = import_log(log, Said(edges_per_revolution=edges)).motors
+    assert any("a speed loop on them" in said for said in motor.log.findings) is summed
+
+
 @pytest.mark.parametrize("filtered", [passes, forgets])
 def test_a_motor_behind_its_own_counts_is_the_motor(filtered: Filter, tmp_path: Path) -> None:
     """As speeds its inertia came to 1 % of the true one, or to 900 times it."""
     loop = run(filtered, rows=4000)
-    log = tmp_path / "log.csv"
-    columns = zip(loop.time, loop.voltage, loop.speed, strict=True)
-    rows = "\n".join(f"{time:.4f},{volts:.4f},{speed:.5f}" for time, volts, speed in columns)
-    log.write_text(f"time [s],voltage [V],speed [rad/s]\n{rows}\n")
+    log = write(loop, tmp_path)
     (motor,) = import_log(log, Said()).motors
     assert any("a speed loop on them" in said for said in motor.log.findings)
     runs = [check(recording_of(one.samples, motor.log.info, one.label)) for one in motor.log.runs]
