@@ -194,7 +194,7 @@ def run_file(path: str) -> None:
         status = int(end.code or 0) & 0xFF
     else:
         status = 0
-    with contextlib.suppress(OSError):
+    with contextlib.suppress(OSError, ValueError):  # standard output may be closed
         end_at_once(status)
     sys.exit(status)
 

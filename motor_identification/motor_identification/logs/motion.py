@@ -33,7 +33,8 @@ from motor_model.gearing.gear import edge_angle
 from motor_model.sample import Info, Measurement
 
 _FAR = 5.5  # times between the steps of speeds and one count, below the 2π, 9.5 and 57.3 of mistaken units
-_FINER, _FEW_DIGITS = 100.0, 10.0  # times finer than a count, and last digits, that a step is one of digits
+# Times finer than a count, and last digits, that a step is one of digits: a wrong unit makes it 360 times finer.
+_FINER, _FEW_DIGITS = 400.0, 10.0
 # Counts of a row in motion, by median, from which on its speed says as much as the angle: one is then a quarter of it.
 # Of fewer, speeds of single rows are little but their rounding, which the angle does not sum up.
 MANY_A_ROW = 4.0

@@ -14,7 +14,8 @@ from motor_identification.recording import Floats
 
 MOST_LEVELS = 120  # that are looked at: more say nothing new
 FINEST = 1000.0  # steps up to the largest value; a finer lattice matters to nobody
-NOTHING = 0.02  # of the finest step: 0 in all but the last digits, which are no lattice of their own
+# Of the finest step of values that are no larger than nearly all: 0 in all but the last digits, which are no lattice.
+NOTHING, USUAL = 0.02, 0.99
 SCAN = 0.05  # of a period at the largest value: distance of the steps that are tried, so that no peak is jumped
 AT_ONCE = 2048  # steps, coarse ones first: most lattices are found among the first
 PEAK = 0.6  # mean cosine of the phases, from which on a step is refined
@@ -42,7 +43,8 @@ def find_lattice(values: Floats, finest: float = FINEST) -> float:
     finest: how many steps there are up to the largest value, at most.
     """
     levels = np.unique(np.abs(values))
-    levels = levels[levels > NOTHING / finest * levels[-1]] if len(levels) else levels
+    usual = float(np.quantile(np.abs(values), USUAL)) if len(levels) else 0.0
+    levels = levels[levels > max(NOTHING / finest * usual, 1e-12 * levels[-1])] if len(levels) else levels
     if len(levels) > MOST_LEVELS:  # at random: every so many of many levels lie on a lattice of their own
         levels = np.sort(np.random.default_rng(0).choice(levels, MOST_LEVELS, replace=False))
     for part in PARTS:

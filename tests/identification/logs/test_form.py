@@ -148,6 +148,9 @@ def test_speeds_that_were_timed_between_edges_change_by_their_digits(tmp_path: P
     coarse = [(time, volts, f"{float(value):.1f}") for time, volts, value in rows]
     with pytest.raises(RecordingError, match="change in steps of 0.1 rpm, but one count .2800"):
         read(tmp_path, coarse, replace(timed, edges_per_revolution=2800))
+    turns = [(time, volts, f"{0.5 * (k % 11):.1f}") for k, (time, volts, _) in enumerate(rows)]  # counts, in rev/s
+    with pytest.raises(RecordingError, match="change in steps of 0.5 deg/s, but one count .400"):
+        read(tmp_path, turns, replace(timed, unit="deg/s"))
 
 
 def test_the_command_offers_them(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

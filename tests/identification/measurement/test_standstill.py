@@ -84,6 +84,10 @@ def test_noisy_angles_rest_where_they_differ_by_noise_alone() -> None:
     assert 4.7 < end[0] <= 5.0 and 8.0 <= start[1] < 8.3
     for speed in (1.0, 5.0, 20.0):  # counts a second: 0.2 of the noise in twenty rows, and more
         assert len(find_standstills_of_noisy_angles(time, speed * time + noise, 0.6)[0]) == 0
+    swing = np.sin(2.0 * np.pi * np.maximum(time - 5.0, 0.0) / 5.0)  # as slow as a rest, and back where it began
+    for size, rests in ((0.0, 1), (2.0, 0), (12.0, 0)):
+        quick = 100.0 * np.minimum(time, 5.0) + 0.6 * size * swing
+        assert len(find_standstills_of_noisy_angles(time, quick + noise, 0.6)[0]) == rests
     for stays, rests in ((0.5, 0), (2.0, 1)):
         rows = stays * REST_ROWS * LEAST_STANDSTILL * 0.005
         short = 40.0 * (np.minimum(time, 5.0) + np.maximum(time - 5.0 - rows, 0.0))

@@ -1,5 +1,6 @@
 """The form of one motor in a table: how its drive becomes volts, what its motion is, when its runs begin."""
 
+import re
 from dataclasses import dataclass, replace
 from math import tau
 
@@ -181,8 +182,8 @@ def _motion(
 
 
 def _is_called_v(heading: Heading) -> bool:
-    """Whether a motion is called `vRot`: a velocity, where its numbers tell no kind; a voltage of a sensor is `V`."""
-    return heading.quantity is Quantity.VOLTAGE and not heading.unit and heading.name.lstrip().startswith("v")
+    """Whether a motion is called `vRot`: a velocity, where its numbers tell no kind; `V` and `volts` are a sensor's."""
+    return heading.quantity is Quantity.VOLTAGE and not heading.unit and bool(re.match(r"\s*v[A-Z]", heading.name))
 
 
 def _find_speed_beside(table: Table, pair: Pair, kind: Kind, said: Said) -> str:

@@ -126,9 +126,16 @@ def _share_clock(vectors: dict[str, Any]) -> dict[str, Any]:
 
 def _find_place(signal: dict[str, Value]) -> str:
     """Find what a signal of a capture is called: its block, `Model Root/Speed Out`, `"Model Root"/"Speed"/"Out1"`."""
-    texts = [text for name in ("Path", "Name") if isinstance(text := signal.get(name), str)]
-    parts = [part.strip(' "') for text in texts for part in text.split("/")]
+    texts = {name: text for name in ("Path", "Name") if isinstance(text := signal.get(name), str)}
+    places = {name: name == "Path" or text.lstrip().startswith('"') for name, text in texts.items()}
+    parts = [part for name, text in texts.items() for part in (_split_place(text) if places[name] else [text])]
+    parts = [part.strip(' "') for part in parts]
     return next((part for part in reversed(parts) if part and not _PORT.fullmatch(part)), "")
+
+
+def _split_place(text: str) -> list[str]:
+    """Split the place of a block; a name in it may have a slash, `Speed [rad//s]`."""
+    return [part.replace("\0", "/") for part in text.replace("//", "\0").split("/")]
 
 
 def _collect(name: str, value: Value, vectors: dict[str, Any]) -> None:
@@ -141,8 +148,12 @@ def _collect(name: str, value: Value, vectors: dict[str, Any]) -> None:
             _collect(label.strip() if label.strip() not in vectors else f"{name} {label.strip()}", one, vectors)
             return
         if (place := _find_place(value)) and isinstance(one := value.get("Data"), np.ndarray):
-            _collect(place if place not in vectors else f"{name} {place}", one, vectors)
-            return
+            name = place if place not in vectors else f"{name} {place}"
+            if not any(
+                isinstance(other, np.ndarray) and other.size > 1 for other in value.values() if other is not one
+            ):
+                _collect(name, one, vectors)
+                return
         for inner, one in value.items():
             _collect(f"{name}.{inner}", one, vectors)
     elif 1 in value.shape:

@@ -168,7 +168,7 @@ def test_units_of_both_kinds_are_asked_for_where_the_numbers_tell_neither(rows: 
     assert ", or of a slide in mm" in question
 
 
-@pytest.mark.parametrize(("name", "kind"), [("vRot", Kind.SPEED), ("rotated", Kind.POSITION)])
+@pytest.mark.parametrize(("name", "kind"), [("vRot", Kind.SPEED), ("rotated", Kind.POSITION), ("v_pot", Kind.POSITION)])
 def test_a_motion_called_v_is_a_velocity_where_its_numbers_tell_no_kind(name: str, kind: Kind) -> None:
     """A duty without a sign under which a motor runs both ways, in steps of 6,283 a turn, which any gyro may have."""
     drive = np.tile(np.repeat([10.0, 0.0], 500), 4) * np.repeat([0.5, 1.0, 1.5, 2.0], 1000)

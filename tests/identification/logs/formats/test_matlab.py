@@ -47,6 +47,16 @@ def test_a_captures_signals_have_the_names_of_their_blocks(tmp_path: Path) -> No
     assert sorted(table.names) == names and table.numbers("Speed Out") == pytest.approx(TIME * 5)
 
 
+def test_a_signal_that_has_times_of_its_own_keeps_them_and_its_name(tmp_path: Path) -> None:
+    signals = {
+        "a": {"Name": "speed [rad/s]", "Time": TIME[None], "Data": TIME[None] * 5},
+        "b": {"Path": "Model Root/Drive [V//V]", "Data": TIME[None] * 3},
+    }
+    savemat(tmp_path / "log.mat", signals)
+    table = read_matlab(tmp_path / "log.mat")
+    assert sorted(table.names) == ["Drive [V/V]", "speed [rad/s].Data", "speed [rad/s].Time"]
+
+
 @pytest.mark.parametrize("motion", ["obs_vel", "fitted"])
 def test_of_several_lengths_the_names_tell_the_motors(tmp_path: Path, motion: str) -> None:
     """A curve that was fitted, of more vectors, beside what was measured."""

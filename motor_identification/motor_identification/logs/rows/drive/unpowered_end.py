@@ -15,6 +15,9 @@ from motor_identification.logs.signals import Floats, Signals
 
 FEWEST = 5  # rows at rest under a voltage that did not change, so that no dead time explains them
 EXPECTED = 20  # counts in them, had the motor run on
+# How fast a motor ran: from which part of its rows on, and which quantile. One of which nobody logged when it was
+# switched off may have run out for most of them.
+HALFWAY, MOST = (0.5, 0.5), (0.0, 0.9)
 RUNNING = 0.75  # of the speed at that voltage: below, it was coming to a stop
 
 
@@ -28,9 +31,10 @@ def drop_unpowered_end(signals: Signals, form: CsvForm) -> tuple[Signals, list[s
         volts, motion = np.abs(signals.voltage[run]), signals.motion[run]
         ran = _count_rows_until_rest(motion, form.kind)
         stood, kept = find_standing_voltage(volts[ran:]), ran + 1
-        if stopped := _count_rows_until_stop(volts, motion, form.kind, ran):
+        said_alone = form.voltage == CONSTANT
+        if stopped := _count_rows_until_stop(volts, motion, form.kind, ran, MOST if said_alone else HALFWAY):
             stood, kept = float(volts[-1]), stopped
-        if stopped and form.voltage == CONSTANT:
+        if stopped and said_alone:
             keep[run.start + kept : run.stop] = False
             said.append(
                 f"Left out: the last {len(volts) - kept} rows, in which {form.motion} comes to rest under the "
@@ -54,18 +58,20 @@ def _count_rows_until_rest(motion: Floats, kind: Kind) -> int:
     return int(np.flatnonzero(moves)[-1]) + 1 if moves.any() else 0
 
 
-def _count_rows_until_stop(volts: Floats, motion: Floats, kind: Kind, ran: int) -> int:
+def _count_rows_until_stop(volts: Floats, motion: Floats, kind: Kind, ran: int, level: tuple[float, float]) -> int:
     """How many rows there are until a motor comes to rest though its voltage stays the same; 0 where it does not.
 
-    A robot was told to stop, and its log went on with the last duty.
+    A robot was told to stop, and its log went on with the last duty. level: from which part of those rows on, and which
+    quantile of the speeds, is how fast it ran.
     """
     changes = np.flatnonzero(np.diff(volts))
     since = int(changes[-1]) + 1 if len(changes) else 0
     if volts[-1] == 0.0 or len(volts) - ran < FEWEST or ran - since < ROWS:
         return 0
     speed = np.abs(motion if kind is Kind.SPEED else np.diff(motion, prepend=motion[0]))
-    level = float(np.median(speed[(since + ran) // 2 : ran]))
+    begin, share = level
+    ran_at = float(np.quantile(speed[since + round(begin * (ran - since)) : ran], share))
     count = 0.0 if kind is Kind.SPEED else float(np.min(speed[speed > 0.0]))
-    if level <= 0.0 or level * (len(volts) - ran) < EXPECTED * count:
+    if ran_at <= 0.0 or ran_at * (len(volts) - ran) < EXPECTED * count:
         return 0
-    return int(np.flatnonzero(speed >= RUNNING * level)[-1]) + 1
+    return int(np.flatnonzero(speed >= RUNNING * ran_at)[-1]) + 1

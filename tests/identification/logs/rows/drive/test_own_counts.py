@@ -12,7 +12,14 @@ from motor_identification.estimation.request import Request
 from motor_identification.identify import identify
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.imported import import_log
-from motor_identification.logs.rows.drive.own_counts import FEWEST, FEWEST_ROWS, SHARE, find_pole, take_fed_back
+from motor_identification.logs.rows.drive.own_counts import (
+    FEWEST,
+    FEWEST_ROWS,
+    MOST_LOST,
+    SHARE,
+    find_pole,
+    take_fed_back,
+)
 from motor_identification.logs.signals import Floats, Signals
 from motor_identification.recording import check, recording_of
 
@@ -101,6 +108,47 @@ def test_what_single_rows_counted_is_taken_exactly(filtered: Filter, jitter: flo
     signals, one = taken
     assert one == pytest.approx(ONE, rel=1e-3)
     assert np.array_equal(np.cumsum(np.rint(signals.motion / one)), loop.counts)
+
+
+def part(loop: Loop, rows: slice) -> Loop:
+    return Loop(loop.time[rows], loop.voltage[rows], loop.speed[rows], loop.counts[rows])
+
+
+@pytest.mark.parametrize("rows", [slice(0, 300), slice(0, 600), slice(333, 1500)])
+def test_short_logs_and_those_that_begin_in_motion_are_as_exact(rows: slice) -> None:
+    """By chance, a mean of 29 to 32 rows fits single counts of so few."""
+    for filtered in (passes, forgets):
+        loop = part(run(filtered), rows)
+        taken = take_fed_back(loop.signals(), ROW)
+        assert taken is not None and taken[1] == pytest.approx(ONE, rel=1e-3)
+        counted = np.rint(taken[0].motion / taken[1])
+        assert np.array_equal(counted[5:], np.diff(loop.counts, prepend=0.0)[5:])
+
+
+def test_an_encoder_the_other_way_round_is_counted_as_it_is() -> None:
+    loop = run()
+    taken = take_fed_back(replace(loop, speed=-loop.speed).signals(), ROW)
+    assert taken is not None and np.array_equal(np.cumsum(np.rint(taken[0].motion / taken[1])), -loop.counts)
+
+
+@pytest.mark.parametrize(("share", "summed"), [(0.5, True), (2.0, False)])
+def test_rows_that_are_missing_are_missing_in_a_sum(share: float, summed: bool) -> None:
+    loop = run()
+    lost = np.linspace(100, 1400, round(share * MOST_LOST * len(loop.time))).astype(int)
+    kept = np.delete(np.arange(len(loop.time)), lost)
+    some = Loop(loop.time[kept], loop.voltage[kept], loop.speed[kept], loop.counts[kept])
+    assert (take_fed_back(some.signals(), ROW) is not None) is summed
+
+
+def test_a_run_of_few_rows_does_not_tell() -> None:
+    loop = run()
+    signals = loop.signals()
+    few, many = FEWEST_ROWS - 2, len(loop.time)
+    assert take_fed_back(replace(signals, runs={"1": slice(0, many - few), "2": slice(many - few, many)}), ROW)
+    open_loop = run(closed=False)
+    half = slice(many // 2, many)
+    mixed = replace(loop, voltage=np.where(np.arange(many) < many // 2, loop.voltage, open_loop.voltage))
+    assert take_fed_back(replace(mixed.signals(), runs={"1": slice(0, many // 2), "2": half}), ROW) is None
 
 
 def test_nothing_is_taken_of_a_command_that_does_not_answer() -> None:

@@ -86,6 +86,12 @@ def test_a_log_of_one_step_ends_where_the_motor_comes_to_rest(voltage: str, kept
     assert not said or said[0].startswith("Left out: the last 200 rows, in which y comes to rest under the 6 V")
 
 
+def test_most_of_such_a_log_may_be_its_run_down() -> None:
+    speed = np.concatenate((np.full(100, 90.0), np.linspace(90.0, 0.0, 300), np.zeros(150)))
+    found, said = drop_unpowered_end(logged(np.full(550, 6.0), speed), replace(SPEED, voltage=CONSTANT))
+    assert 100 <= len(found) <= 100 + 300 // 4 + 1 and said  # down to three quarters of its speed
+
+
 def test_a_slow_encoder_that_gives_no_count_for_some_rows_runs_on() -> None:
     volts = np.repeat([1.0, 2.0, 3.0, 4.0], 40)
     counts = np.floor(np.cumsum(0.05 * volts))
