@@ -133,6 +133,12 @@ def test_what_the_readme_says_of_logs_that_tell_no_more_is_what_the_pages_have()
     assert told < every
 
 
+def test_what_the_readme_says_of_loops_on_their_own_counts_is_what_the_page_has() -> None:
+    near, every = column_sums("own_counts.md", r"^\| [^|]+ \| as imported \| (\d+) of (\d+) \|")
+    speeds, _ = column_sums("own_counts.md", r"^\| [^|]+ \| as speeds \| (\d+) of (\d+) \|")
+    assert f"are within 5 % in {near} of {every} logs; taken as speeds, in {speeds}." in README and speeds < near
+
+
 def test_every_command_belongs_to_a_part() -> None:
     parts = {name: commands_of(name) for name in PARTS}
     assert sorted(sum(parts.values(), [])) == sorted(set(COMMANDS) - set(SCRIPTS)) and min(map(len, parts.values())) > 2
