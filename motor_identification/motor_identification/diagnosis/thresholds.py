@@ -109,6 +109,10 @@ WORSE_GAP = 1.5
 # left. Measured: 0.34 to 0.44 for a friction under a coasting bridge in four logs of two rigs that have more; 0.9 and
 # more of 24 simulated motors with effects outside the table.
 HALVED_GAP = 0.5
+# What two effects leave of the gap beside a random torque that made a model complete, one of which opens it alone.
+# Measured: 0.31 and 0.42 of a friction on a coasting bridge; 0.84 of a real log, with a constant load that is not
+# there.
+CLOSED_GAP = 0.7
 # Correlation times of a torque, below which a recording that the fits have seen whole has too few courses of it to tell
 # it from a friction or a load. Measured: 3.6 in one step from 5 to 15 V of a real gearmotor, whose friction is likelier
 # by 540 alone; 30 of a torque of 0.2 s in the shortest recordings of the tables.

@@ -86,4 +86,5 @@ def find_closing_pair(
     """
     opening = [test for test in tests if is_supported(test) and test.model.held.gap > test.held_before.gap]
     pair = find_pair(selection, opening, reporter) if opening else []
-    return pair if pair and pair[-1].found.model.held.gap < selection.model.held.gap else []
+    closed = thresholds.CLOSED_GAP * selection.model.held.gap
+    return pair if pair and pair[-1].found.model.held.gap < closed else []

@@ -74,7 +74,7 @@ def test_what_is_likely_alone_is_no_compromise() -> None:
         assert (list_partners([test]) == [test]) is not compromise
 
 
-@pytest.mark.parametrize(("opens", "left", "found"), [(6.0, 4.9, True), (6.0, 5.1, False), (4.9, 4.0, False)])
+@pytest.mark.parametrize(("opens", "left", "found"), [(6.0, 3.4, True), (6.0, 3.6, False), (4.9, 3.4, False)])
 def test_beside_a_torque_what_is_likely_but_opens_the_gap_is_tried_with_what_closes_it(
     monkeypatch: pytest.MonkeyPatch, opens: float, left: float, found: bool
 ) -> None:
