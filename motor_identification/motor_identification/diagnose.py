@@ -11,9 +11,7 @@ from dataclasses import dataclass, replace
 from time import perf_counter
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_test import fits_torque
 from motor_identification.diagnosis.effect_test import sort_by_table
-from motor_identification.diagnosis.evidence.line_evidence import adds_only_lines
 from motor_identification.diagnosis.evidence.sensor_lag import may_lag
 from motor_identification.diagnosis.evidence.static_evidence import find_untold
 from motor_identification.diagnosis.result import Diagnosis, Verdict
@@ -22,14 +20,18 @@ from motor_identification.diagnosis.selection.determination import drop_undeterm
 from motor_identification.diagnosis.selection.forward_selection import select_forward
 from motor_identification.diagnosis.selection.restarts import retry_with_another_first, retry_with_pair
 from motor_identification.diagnosis.selection.rivals import check_beside_torque
-from motor_identification.diagnosis.selection.selection import Selection, begin_beside_torque
+from motor_identification.diagnosis.selection.selection import Selection
 from motor_identification.diagnosis.selection.stand_ins import (
     doubt_instants,
     drop_stand_ins,
     drop_stand_ins_of_either,
     keep_confirmed,
 )
-from motor_identification.diagnosis.selection.torque_selection import list_hidden_by_torque, select_beside_torque
+from motor_identification.diagnosis.selection.torque_selection import (
+    fits_slow_torque,
+    list_hidden_by_torque,
+    select_beside_torque,
+)
 from motor_identification.diagnosis.start import Start, begin, begin_as_timed, find_timing_beside
 from motor_identification.diagnosis.verdict import conclude, find_nearest
 from motor_identification.estimation.request import Request
@@ -182,7 +184,7 @@ def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tu
         selection = eliminate_backward(drop_stand_ins_of_either(first, selection), reporter)
         if selection.model.complete and selection.model.above_floor:
             selection = check_beside_torque(selection, reporter)
-    elif beside.steps and _fits_torque(beside, start):
+    elif beside.steps and fits_slow_torque(beside, start):
         selection = eliminate_backward(keep_confirmed(selection, beside.model.effects), reporter)
     else:
         selection = beside
@@ -193,22 +195,4 @@ def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tu
     if untold := set(find_untold(left.model)) - set(start.model.effects):
         return start, sort_by_table(untold | set(undetermined))
     # What is left of a model that fits a slow torque instead of the motion tells less than the one to begin with.
-    return start if _fits_torque(left, start) else left, undetermined
-
-
-def _fits_torque(selection: Selection, start: Selection) -> bool:
-    """Decide whether a selection fits a slow torque instead of the motion.
-
-    Of what both have seen, least squares leave the smallest gap, whatever the torque: there a model beside it is no
-    worse for more than that, and is compared with the one to begin with beside it.
-    """
-    model, plain = selection.model, start.model
-    lines = adds_only_lines(model, plain)
-    if not fits_torque(model.held, plain.held, lines):
-        return False
-    if not (model.held.seen and model.beside_torque and not plain.beside_torque):
-        return True
-    if set(model.effects) == set(plain.effects):
-        return False
-    alike = begin_beside_torque(plain, start.hold_out, start.workers).model
-    return fits_torque(model.held, alike.held, lines)
+    return start if fits_slow_torque(left, start) else left, undetermined

@@ -6,8 +6,13 @@ Forward selection and backward elimination as without a torque, on models that a
 import numpy as np
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_test import likelihood_threshold, predicts_far_worse, takes_away_more
-from motor_identification.diagnosis.evidence.line_evidence import count_waves
+from motor_identification.diagnosis.candidate_test import (
+    fits_torque,
+    likelihood_threshold,
+    predicts_far_worse,
+    takes_away_more,
+)
+from motor_identification.diagnosis.evidence.line_evidence import adds_only_lines, count_waves
 from motor_identification.diagnosis.run_gains import find_gap_less_gains, may_be_of_gains
 from motor_identification.diagnosis.selection.backward_elimination import eliminate_backward
 from motor_identification.diagnosis.selection.forward_selection import select_forward
@@ -64,6 +69,24 @@ def _go_on_from(begin: Selection, plain: Selection, reporter: ProgressReporter) 
     if worse and begin.model.held.seen:  # a gap that was fitted is no prediction
         worse = begun.model.likelihood - selection.model.likelihood > likelihood_threshold()
     return None if worse else selection
+
+
+def fits_slow_torque(selection: Selection, start: Selection) -> bool:
+    """Decide whether a selection fits a slow torque instead of the motion.
+
+    Of what both have seen, least squares leave the smallest gap, whatever the torque: there a model beside it is no
+    worse for more than that, and is compared with the one to begin with beside it.
+    """
+    model, plain = selection.model, start.model
+    lines = adds_only_lines(model, plain)
+    if not fits_torque(model.held, plain.held, lines):
+        return False
+    if not (model.held.seen and model.beside_torque and not plain.beside_torque):
+        return True
+    if set(model.effects) == set(plain.effects):
+        return False
+    alike = begin_beside_torque(plain, start.hold_out, start.workers).model
+    return fits_torque(model.held, alike.held, lines)
 
 
 def list_hidden_by_torque(plain: Selection, beside: Selection) -> tuple[str, ...]:

@@ -31,10 +31,11 @@ LONGEST_MEAN, FEWEST_MEANS = 32, 40
 # Periods from one row to the next, from which on some between are missing, and the share of the rows: what they counted
 # is missing in the sum. Measured: kv is 1 to 8 % off where one in twenty is.
 LONG_ROW, MOST_LOST = 1.5, 0.01
-# Counts, by which a row's is off the mean of its neighbours, and of the rows that are by no more: an even motion counts
-# n or n + 1 in every row. Measured: 0.90 and more of 245 parts of simulated loops, none of them misread, one with 0.8;
-# 0.2 where a mean of a real loop was taken apart wrongly.
-ROUNDED, EVEN = 1.0, 0.9
+# Counts, by which a row's is off the mean of its neighbours, and of the rows that are by less: an even motion counts
+# n or n + 1 in every row, and is 1 off at most; a quarter is for speeds beside whole counts. Measured: 0.90 and more of
+# 245 parts of simulated loops, none of them misread, one with 0.8; 0.2 where a mean of a real loop was taken apart
+# wrongly.
+ROUNDED, EVEN = 1.25, 0.9
 STEPS = 1e-3  # of the largest step of a filter's output: smaller ones are digits
 POLES = (0.02, 0.99)  # that are looked for
 SAME_RATIO = 2e-3  # ratios that differ by no more are one
@@ -52,8 +53,9 @@ def take_fed_back(signals: Signals, period: float) -> tuple[Signals, float] | No
     for speeds in _list_unfiltered(signals):
         for counted in (speeds, speeds * _measure_rows(signals, period)):
             size = size_of_count(counted, 1) if find_lattice(counted) > 0.0 else 0.0
-            if size > 0.0 and _measure_distance(replace(signals, motion=counted), size) < OFF_GRID:
-                return _take_single_rows(replace(signals, motion=counted), size)
+            taken = replace(signals, motion=counted)
+            if size > 0.0 and _measure_distance(taken, size) < OFF_GRID:
+                return _take_single_rows(taken, size)
     return None
 
 
@@ -74,7 +76,7 @@ def _are_even(counts: Floats) -> bool:
     A mean that is taken apart wrongly, as of rows that were lost, leaves counts that are anywhere.
     """
     beside = np.abs(counts[1:-1] - 0.5 * (counts[:-2] + counts[2:]))
-    return len(beside) > 0 and bool(np.mean(beside < ROUNDED + 0.25) >= EVEN)
+    return len(beside) > 0 and bool(np.mean(beside < ROUNDED) >= EVEN)
 
 
 def _take_single_rows(signals: Signals, size: float) -> tuple[Signals, float] | None:
