@@ -16,7 +16,7 @@ from motor_identification.measurement.standstill import LEAST_STANDSTILL
 from motor_identification.recording import Bools, Floats, Integers, Recording
 from motor_identification.sensor.pulses.pulse_periods import mark_decays
 from motor_identification.sensor.value_lattice import find_lattice
-from motor_identification.sensor.white_noise import estimate_white_noise
+from motor_identification.sensor.white_noise import estimate_relative_noise
 
 LEAST_ZEROS = 5.0  # rows, from the one before to the last of values of 0: fewer may be a row or two that were lost
 UNTIL_TOLD = 2.0  # slots that a motor turns before a time between two edges is known, at rest or after a turn
@@ -24,6 +24,7 @@ FRESH = 0.5  # of a row: with two edges within it for certain its value is a new
 # Of a row: a slot's time by what is lost of a speed in a row, in speeds. From v on a motor stops within v²/2a, which is
 # less than a slot from 0.5 on: then it may have had no edge in the row, and its value is an old one.
 STOPS = 0.25
+MOST_REPEATED = 0.02  # of new values that are those before by chance, which a stopping motor's are not
 BEYOND_NEXT = 1.1  # times the next value that one after a turn may be
 OLDER = 1.1  # rows: an edge came within the row before, stamps are a little off
 STEADY = 2.0  # times its neighbours that a value may be, or they it, where it may be old
@@ -44,7 +45,7 @@ def make_pulse_intervals(recording: Recording) -> Intervals:
     kept, within = kept[seen], within[seen]
     period, speed, end = recording.edge_period[kept], recording.speed[kept], recording.time[kept] - 0.5 * within
     gain = np.abs(np.gradient(speed, end)) if len(end) > 1 else np.zeros(len(end))
-    noise = _measure_noise(speed, recording.voltage[kept]) * slot
+    noise = _measure_noise(speed) * slot
     blur = np.hypot(noise, gain * period * within * UNIFORM_SIGMA) / sqrt(2.0)
     moving = index_intervals(
         np.round(end - period, 9),
@@ -69,7 +70,9 @@ def measure_slot(recording: Recording) -> float:
 def _mark_measured(recording: Recording) -> Bools:
     """Mark rows (K,) that bring a new time between two edges."""
     time, speed, period, row = recording.time, recording.speed, recording.edge_period, recording.sample_period
-    new = (period > 0.0) & ((period < row) | (np.diff(speed, prepend=np.nan) != 0.0))
+    again = np.diff(speed, prepend=np.nan) == 0.0
+    turning = period > 0.0
+    new = turning & (~again | (period < row) & _repeat_by_chance(again[turning], period[turning] / row))
     at = np.flatnonzero(new & ~mark_decays(time, period, row))
     # An edge is a slot's time after the one before: where a value comes sooner, that was the time since one.
     sooner = np.diff(time[at]) < period[at[1:]] - OLDER * row
@@ -83,6 +86,14 @@ def _mark_measured(recording: Recording) -> Bools:
     fresh = (period[at] < FRESH * row) & ~_mark_stops(time[at] / row, speed[at], period[at] / row)
     measured[at[(fresh | steady) & ~turned]] = True
     return measured
+
+
+def _repeat_by_chance(again: Bools, period: Floats) -> bool:
+    """Decide whether new values often are those before them: of whole ticks of a timer. Else such a one is an old one.
+
+    again: values (N,) that are those before. period: [rows] of the same shape; with two edges in a row a value is new.
+    """
+    return bool(np.count_nonzero(again[period < FRESH]) > MOST_REPEATED * np.count_nonzero(period < FRESH))
 
 
 def _mark_turns(time: Floats, speed: Floats, period: Floats, zeros: Integers) -> Bools:
@@ -108,12 +119,12 @@ def _mark_stops(time: Floats, speed: Floats, period: Floats) -> Bools:
     return np.asarray(period * lost > STOPS * size) if len(speed) else np.zeros(0, np.bool_)
 
 
-def _measure_noise(speed: Floats, voltage: Floats) -> float:
-    """Measure the noise of speeds (K,), as a share of the usual one: where an error of a slot has that size."""
+def _measure_noise(speed: Floats) -> float:
+    """Measure the noise of speeds (K,), as a share of each: an error of a slot, of which it is one."""
     usual = sqrt(float(np.mean(speed**2))) if len(speed) else 0.0
     if usual == 0.0:
         return LEAST_NOISE
-    return max(max(estimate_white_noise(speed, voltage), find_lattice(speed) * UNIFORM_SIGMA) / usual, LEAST_NOISE)
+    return max(estimate_relative_noise(speed), find_lattice(speed) * UNIFORM_SIGMA / usual, LEAST_NOISE)
 
 
 def _find_standstills(recording: Recording) -> tuple[Floats, Floats]:

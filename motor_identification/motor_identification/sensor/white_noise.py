@@ -18,6 +18,7 @@ PAST = 6  # samples and voltages before that predict the next one
 KEPT = 0.6  # of the differences, the smallest: reversals, starts and wrong samples are among the rest
 KEPT_SHARE = 0.2146  # of a normal distribution's variance, within its KEPT quantile (±0.842 σ)
 LEAST_SAMPLES = 24
+LEAST_SHARE = 0.05  # of the RMS of values, of what noise is told as a share
 LEAST_PREDICTED = 100  # samples from which on a prediction with 2·PAST + 2 numbers is learned
 
 
@@ -32,6 +33,25 @@ def estimate_white_noise(values: Floats, voltage: Floats) -> float:
     found = [_trimmed_rms(np.diff(values, n=order)) / sqrt(comb(2 * order, order)) for order in ORDERS]
     if len(values) >= LEAST_PREDICTED:
         found.append(_predict(values, voltage))
+    return min(found)
+
+
+def estimate_relative_noise(values: Floats) -> float:
+    """Estimate the standard deviation of white noise in evenly spaced values (K,) as a share of each value.
+
+    0 where too few follow each other that are of one sign and more than next to nothing.
+    """
+    found, least = [], LEAST_SHARE * sqrt(float(np.mean(values**2))) if len(values) else 0.0
+    for order in ORDERS:
+        if len(values) <= order:
+            return 0.0
+        parts = sliding_window_view(values, order + 1)
+        size: Floats = np.abs(np.mean(parts, axis=1))
+        one_way = np.all(parts > 0.0, axis=1) | np.all(parts < 0.0, axis=1)
+        differences = np.diff(values, n=order)[one_way & (size > least)] / size[one_way & (size > least)]
+        if len(differences) < LEAST_SAMPLES:
+            return 0.0
+        found.append(_trimmed_rms(differences) / sqrt(comb(2 * order, order)))
     return min(found)
 
 

@@ -1,10 +1,11 @@
 """Find the slot over whose times speeds were computed: the period method, whose values are the older the slower.
 
-Where a motor is slow enough, how long values stay tells the slot. Else its motion does: such a value is the mean from
-one edge to the next, on average a whole period slot/|v| old, so that of all slots the motor is fitted to the speeds as
-each would have them, and the likeliest is compared with the same rows' values by the likeliest other timing. Not where
-speeds show a filter: both come late, and what was smoothed has a noise of its own. Where all speeds are over whole
-ticks of a timer, times between edges is what they are, and slots are those of ticks as there are.
+Where a motor is slow enough, how long values stay tells the slot, or how they fall. Else its motion does: such a value
+is the mean from one edge to the next, on average a whole period slot/|v| old, so that of all slots the motor is fitted
+to the speeds as each would have them, and the likeliest is compared with the same rows' values by the likeliest other
+timing (`error_likelihood.py`). Not where speeds show a filter: both come late, and what was smoothed has a noise of its
+own. Where all speeds are over whole ticks of a timer, times between edges is what they are, and slots are those of
+ticks as there are.
 """
 
 from collections.abc import Callable, Sequence
@@ -22,7 +23,8 @@ from motor_identification.sensor.pulses.pulse_periods import (
     score_stays,
 )
 from motor_identification.sensor.pulses.timer_ticks import list_slots
-from motor_identification.timing.shaped_fit import ShapedFit, Shaper, measure_gain
+from motor_identification.timing.error_likelihood import measure_log_likelihood
+from motor_identification.timing.shaped_fit import ShapedFit, Shaper
 from motor_identification.timing.timing import LEAST_DELAY, Timing
 from motor_model.effects import LAGGING
 from motor_model.errors import RecordingError
@@ -44,6 +46,11 @@ class SlotGain:
     rows: int
     undoes: bool = False  # a dead time that the other timing asks for
     stays: float = 0.0  # values that stay as long as the slot says, less those that do not
+
+
+def find_shown_slot(recordings: Sequence[Recording]) -> float:
+    """Find the slot [rad] that values themselves show: by how long they stay, or fall between edges; 0 where none."""
+    return find_stays_slot(recordings) or find_decay_slot(recordings)
 
 
 def find_stays_slot(recordings: Sequence[Recording]) -> float:
@@ -70,7 +77,7 @@ def _find_slot(find: Callable[[Floats, Floats], float], recordings: Sequence[Rec
 
 
 def find_likeliest_slot(shaper: Shaper, instants: Timing, other: Timing) -> SlotGain:
-    """Find the slot by which a shaper's speeds are likeliest beside another timing; the one that their falls tell.
+    """Find the slot by which a shaper's speeds are likeliest beside another timing; of those that ticks tell, if any.
 
     instants: whether voltages hold from the rows on or held until them.
     """
@@ -80,9 +87,6 @@ def find_likeliest_slot(shaper: Shaper, instants: Timing, other: Timing) -> Slot
     def judge(slot: float) -> SlotGain:
         return judge_slot(shaper, replace(instants, slot=slot), other, plain)
 
-    known = find_decay_slot(shaper.recordings)
-    if known > 0.0:
-        return judge(known)
     if ticks := list_tick_slots(shaper.recordings):
         return max(map(judge, ticks), key=_rate)
     best = max(map(judge, (usual * share for share in GRID)), key=_rate)
@@ -125,19 +129,25 @@ def judge_slot(shaper: Shaper, timing: Timing, other: Timing, plain: ShapedFit, 
         return SlotGain(slot, -np.inf, 0)
     rows = _find_rows(plain.estimate.problem, periods.estimate.problem, moving)
     alone = replace(shaper, restrict=_restrict_to(rows, shaper.restrict)).fit(other, beside)
-    before, after = _list_errors(alone), _list_errors(periods)
     undoes = plain.delay > LEAST_DELAY * plain.estimate.problem.sample_period and periods.delay < UNDONE * plain.delay
-    return SlotGain(slot, measure_gain(before, after), len(after), undoes, sum(stays))
+    return SlotGain(slot, measure_gain_of_speeds(alone, periods), sum(map(len, moving)), undoes, sum(stays))
+
+
+def measure_gain_of_speeds(before: ShapedFit, after: ShapedFit) -> float:
+    """Measure how much likelier one fit's speeds are than another's of the same rows, where a motor moved."""
+    old, new = _list_errors(before), _list_errors(after)
+    count = min(old.shape[1], new.shape[1])  # at the beginning a row may have no whole window
+    return measure_log_likelihood(*new[:, -count:]) - measure_log_likelihood(*old[:, -count:])
 
 
 def _list_errors(fitted: ShapedFit) -> Floats:
-    """List simulated less measured speeds [rad/s] of all intervals in which the motor moved, shape (I,)."""
+    """List simulated less measured, and simulated, speeds [rad/s] of all intervals of motion, shape (2, I)."""
     estimate = fitted.estimate
-    errors = [
-        (left / data.duration)[data.slack == 0.0]
+    both = [
+        np.stack([left / data.duration, left / data.duration + data.speed])[:, data.slack == 0.0]
         for left, data in zip(estimate.increments, estimate.problem.intervals, strict=True)
     ]
-    return np.concatenate(errors)
+    return np.concatenate(both, axis=1)
 
 
 def _rate(one: SlotGain) -> float:

@@ -21,10 +21,10 @@ from motor_identification.recording import Floats, Recording
 from motor_identification.sensor.speed_sensor import find_speed_sensor
 from motor_identification.timing.held_until import held_until
 from motor_identification.timing.pulse_slot import (
-    find_decay_slot,
     find_likeliest_slot,
-    find_stays_slot,
+    find_shown_slot,
     list_tick_slots,
+    measure_gain_of_speeds,
     measure_gain_over_lag,
     measure_usual_travel,
 )
@@ -50,8 +50,9 @@ LEAST_UNDOING_GAIN = 3.0
 LEAST_SLOT = 0.01
 LEAST_SPEEDS = 50
 # Rows by which speeds over times between edges answer voltages that held until them, at most: a dead time is drawn by
-# chance there, and one of nearly a row is none of voltages from the rows on. Measured: 0.7 and 0.9 where they hold.
-SURELY_EARLY = 0.5
+# chance there, and one of nearly a row is none of voltages from the rows on. Measured: 0.63 of a motor with one; 0.7 to
+# 0.9 where they hold from there.
+SURELY_EARLY = 0.65
 TOO_EARLY = Timing(1.0, -1.5, "")  # half a row more than any program makes speeds early
 
 
@@ -109,8 +110,8 @@ def _find_as_stamped(shaper: Shaper) -> Timing | None:
     None where the motion comes too early for any timing.
     """
     timing = _find_instants(shaper)
-    slot = find_stays_slot(shaper.recordings) if _are_open(shaper.recordings) else 0.0
-    if slot > 0.0:  # how long values stay is proof: where edges come as seldom as rows, a fit tells little
+    slot = find_shown_slot(shaper.recordings) if _are_open(shaper.recordings) else 0.0
+    if slot > 0.0:  # what values show is proof: where edges come as seldom as rows, a fit tells little
         return replace(_choose_instants(shaper, slot), slot=slot)
     if timing is None:
         return None
@@ -147,8 +148,7 @@ def _find_periods(shaper: Shaper, other: Timing, least: float = -inf) -> Timing 
     sensors = [find_speed_sensor(recording) for recording in shaper.recordings]
     if not _are_open(shaper.recordings) or any(sensor.step > 0.0 or sensor.frame > 0.0 for sensor in sensors):
         return None
-    either = other.is_early or find_decay_slot(shaper.recordings) > 0.0  # the age of values makes early ones late
-    instants = (OTHERS[0], OTHERS[2]) if either else (OTHERS[0],)
+    instants = (OTHERS[0], OTHERS[2]) if other.is_early else (OTHERS[0],)
     found, timing = max(
         ((find_likeliest_slot(shaper, one, other), one) for one in instants), key=lambda one: one[0].gain
     )
@@ -171,7 +171,8 @@ def _choose_instants(shaper: Shaper, slot: float) -> Timing:
     later, early = (shaper.fit(replace(timing, slot=slot)) for timing in (OTHERS[0], OTHERS[2]))
     row = min(recording.info.sample_period for recording in shaper.recordings)
     too_early = later.delay <= LEAST_DELAY * row and early.delay < SURELY_EARLY * row
-    return OTHERS[2] if too_early and _is_likelier(early.residuals, later.residuals) else OTHERS[0]
+    enough = max(LEAST_GAIN, LEAST_GAIN_OF_ROW * len(early.residuals))
+    return OTHERS[2] if too_early and measure_gain_of_speeds(later, early) > enough else OTHERS[0]
 
 
 def _find_instants(shaper: Shaper) -> Timing | None:

@@ -12,6 +12,7 @@ from motor_identification.measurement.pulse_intervals import (
     FRESH,
     LEAST_NOISE,
     LEAST_ZEROS,
+    MOST_REPEATED,
     STOPS,
     make_pulse_intervals,
     measure_slot,
@@ -74,6 +75,21 @@ def test_a_value_before_a_stop_or_a_turn_may_be_an_old_one(values: list[float], 
         slow = replace(recording, speed=speed, edge_period=divide_slot(4.0 * row, speed))
         ends = make_pulse_intervals(slow).time
         assert bool(np.any(np.abs(ends - 21.8 * row) < 0.01 * row)) is measured  # 0.2 rows before its own
+
+
+@pytest.mark.parametrize("period", [0.4, 0.9])
+@pytest.mark.parametrize("chance", [0.0, 0.5 * MOST_REPEATED, 1.5 * MOST_REPEATED])
+def test_a_value_that_repeats_is_an_old_one_where_new_ones_never_do(chance: float, period: float) -> None:
+    """A motor that stopped within a row showed for another one what it had been: 20 to 40 times off its noise."""
+    recording = timed()
+    row, count = recording.info.sample_period, len(recording)
+    speed = 10.0 + 1e-3 * np.random.default_rng(2).standard_normal(count)
+    speed[101 : 101 + round(chance * count)] = speed[100]  # whole ticks of a timer
+    speed[-101] = speed[-102]
+    logged = replace(recording, speed=speed, edge_period=divide_slot(10.0 * period * row, speed))
+    ends = make_pulse_intervals(logged).time / row
+    new = bool(np.any(np.abs(ends - (count - 101 - 0.5 * period)) < 0.01))
+    assert new is (chance > MOST_REPEATED and period < FRESH)
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,12 @@ import numpy as np
 import pytest
 
 from motor_identification.recording import Floats
-from motor_identification.sensor.white_noise import estimate_white_noise
+from motor_identification.sensor.white_noise import (
+    LEAST_SAMPLES,
+    LEAST_SHARE,
+    estimate_relative_noise,
+    estimate_white_noise,
+)
 
 
 def noise_of(values: Floats) -> float:
@@ -63,3 +68,24 @@ def test_a_controller_that_answers_a_sample_does_not_predict_its_noise(seed: int
         voltage[k] = 4.0 + gain * (20.0 * np.sign(np.sin(k / 40.0)) - values[k])
         speed += 0.2 * (5.0 * voltage[k] - speed)
     assert 0.8 * noise < estimate_white_noise(values, voltage) < 1.25 * noise
+
+
+@pytest.mark.parametrize("share", [0.005, 0.014, 0.05])
+def test_noise_that_is_a_share_of_values_is_one_of_slow_ones_too(share: float) -> None:
+    """A motor that is slow for most of the time: as one number, half of that noise was found."""
+    random, time = np.random.default_rng(3), np.linspace(0.0, 20.0, 4000)
+    motion = 100.0 * np.sin(2.0 * np.pi * time / 5.0) ** 3
+    values = motion * (1.0 + share * random.standard_normal(4000))
+    usual = float(np.sqrt(np.mean(values**2)))
+    assert estimate_relative_noise(values) == pytest.approx(share, rel=0.08)
+    assert noise_of(values) < 0.7 * share * usual
+
+
+def test_noise_is_no_share_of_what_is_next_to_nothing_or_too_little() -> None:
+    random = np.random.default_rng(5)
+    values = 10.0 * (1.0 + 0.01 * random.standard_normal(200))
+    nothing = 0.9 * LEAST_SHARE * 10.0 * (1.0 + random.standard_normal(60))
+    assert estimate_relative_noise(np.concatenate([values, nothing])) == pytest.approx(0.01, rel=0.15)
+    assert estimate_relative_noise(values[:LEAST_SAMPLES]) == 0.0
+    for few in range(6):
+        assert estimate_relative_noise(values[:few]) == 0.0

@@ -31,8 +31,9 @@ STEPS = 10.0  # of what values are rounded to, at least: of fewer nobody knows h
 EVEN = 0.02  # of a value: how much neighbours differ by at an even speed
 EXACT = 0.05  # rows by which the time since the latest edge may grow otherwise than the rows' own
 # Relative: slots that pairs of falling values tell are one within this; beside those within a wider range, of which so
-# many times as many as chance would put there are that one, and at least a share of all that fall.
-SAME_DECAY, AROUND, BEYOND_CHANCE, OF_ALL_FALLS = 0.002, 0.1, 5.0, 0.05
+# many times as many as chance would put there are that one, and at least a share of all that fall; or as many as chance
+# would not put there in a long log either, whose motor is seldom slow.
+SAME_DECAY, AROUND, BEYOND_CHANCE, OF_ALL_FALLS, MANY_DECAYS = 0.002, 0.1, 5.0, 0.05, 20
 # Such pairs, at least. Measured: of 30 logs that fall 13 have them, all with the true slot to 1e-4; none of 400 logs of
 # other sensors, nor of 226 of real motors.
 FEWEST_DECAYS = 6
@@ -72,7 +73,7 @@ def find_slot_by_decays(time: Floats, speed: Floats) -> float:
     slots = np.sort(np.log(rows[falls] / (1.0 / size[1:][falls] - 1.0 / size[:-1][falls])))
     alike, around = (_count_within(slots, width) for width in (SAME_DECAY, AROUND))
     likely = alike >= np.maximum(
-        max(FEWEST_DECAYS, OF_ALL_FALLS * len(slots)), BEYOND_CHANCE * SAME_DECAY / AROUND * around
+        max(FEWEST_DECAYS, min(OF_ALL_FALLS * len(slots), MANY_DECAYS)), BEYOND_CHANCE * SAME_DECAY / AROUND * around
     )
     while likely.any():
         most = np.argmax(np.where(likely, alike, 0))

@@ -137,10 +137,22 @@ def test_what_falls_for_other_reasons_tells_none() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "strict"), [("FEWEST_DECAYS", 10_000), ("BEYOND_CHANCE", 1e6), ("OF_ALL_FALLS", 1.01)]
+    "strict", [{"FEWEST_DECAYS": 10_000}, {"BEYOND_CHANCE": 1e6}, {"OF_ALL_FALLS": 1.01, "MANY_DECAYS": 10_000}]
 )
-def test_each_limit_of_falling_values_decides(name: str, strict: float, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_each_limit_of_falling_values_decides(strict: dict[str, float], monkeypatch: pytest.MonkeyPatch) -> None:
     time, speed = logged(12, 200.0, falls=True)
     assert find_slot_by_decays(time, speed) > 0.0
-    monkeypatch.setattr(pulse_periods, name, strict)
+    for name, limit in strict.items():
+        monkeypatch.setattr(pulse_periods, name, limit)
     assert find_slot_by_decays(time, speed) == 0.0
+
+
+@pytest.mark.parametrize(("many", "told"), [(pulse_periods.MANY_DECAYS, True), (10_000, False)])
+def test_a_motor_that_is_seldom_slow_shows_its_slot(many: int, told: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """One in five of a long log's values falls by chance, and one in a hundred of those for the time since an edge."""
+    time, speed = logged(12, 200.0, falls=True)
+    random = np.random.default_rng(4)
+    fast = 300.0 * (1.0 + 0.014 * random.standard_normal(9 * len(time)))
+    monkeypatch.setattr(pulse_periods, "MANY_DECAYS", many)
+    found = find_slot_by_decays(0.005 * np.arange(10 * len(time)), np.concatenate([speed, fast]))
+    assert found == (pytest.approx(2.0 * np.pi / 12, rel=1e-4) if told else 0.0)
