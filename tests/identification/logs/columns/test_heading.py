@@ -95,6 +95,9 @@ velocity_rad      | speed          | rad/s |
 speed (deg)       | speed          | deg/s |
 vel_rad_left      | speed          | rad/s | left
 theta_dot [rad]   | speed          | rad/s |
+phi_dot1          | speed          |       |
+theta_dot_left    | speed          |       | left
+thetadot          | speed          |       |
 Winkelgeschwindigkeit (rad) | speed | rad/s |
 rpm_rad           | speed          | rad/s |
 velocity_mm       | speed          | mm/s  |

@@ -4,6 +4,7 @@ from motor_identification.logs.columns.vocabulary import (
     MOVES,
     OUTPUTS,
     SHARES,
+    SIDES,
     UNITS,
     VOLTAGE_WORDS,
     WORDS,
@@ -49,7 +50,7 @@ def tell_quantity(words: tuple[str, ...], unit: str) -> Quantity | None:
 
 def is_speed_by_words(words: tuple[str, ...]) -> bool:
     """Whether the words of a name tell a speed, whatever its unit: `omega`, `Winkelgeschwindigkeit`, `theta_dot`."""
-    if words and (words[-1] == "dot" or words[-1] in WORDS[Quantity.SPEED]):
+    if _is_dotted(words) or (words and words[-1] in WORDS[Quantity.SPEED]):
         return True
     others = WORDS[Quantity.POSITION] | WORDS[Quantity.COUNT] - _SENSORS
     return bool(WORDS[Quantity.SPEED] & set(words)) and not others & set(words)
@@ -59,7 +60,13 @@ def _is_speed_after_all(words: tuple[str, ...], told: list[Quantity]) -> bool:
     """Whether another word than the first tells a speed: `theta_dot`, and `velocity_encoder`, which measures it."""
     if told[:2] == [Quantity.COUNT, Quantity.SPEED]:
         return not WORDS[Quantity.COUNT] & set(words) - _SENSORS
-    return told[:1] == [Quantity.POSITION] and words[-1] == "dot"
+    return told[:1] == [Quantity.POSITION] and _is_dotted(words)
+
+
+def _is_dotted(words: tuple[str, ...]) -> bool:
+    """Whether a name ends in a dot, but for the motor it is of: `theta_dot`, `phi_dot1`, `theta_dot_left`."""
+    kept = [word for word in words if not word.isdigit() and word not in SIDES]
+    return kept[-1:] == ["dot"]
 
 
 def _quantity_of_an_output(words: tuple[str, ...], told: list[Quantity]) -> Quantity | None:

@@ -9,6 +9,7 @@ from motor_identification.logs.columns.vocabulary import (
     SIDES,
     TAILS,
     WORDS,
+    Quantity,
 )
 
 _PARTS = re.compile(r"[^\W\d_]+|\d+|%|°")
@@ -34,6 +35,8 @@ def _taken_apart(word: str) -> tuple[str, ...]:
         return (word,)
     if word[0] in "lr" and word[1:] in _MOTIONS:  # Lspeed beside Rspeed; RPWM and LPWM may be one motor's two ways
         return (word[0], word[1:])
+    if word.endswith("dot") and word[:-3] in WORDS[Quantity.POSITION]:  # thetadot
+        return (word[:-3], "dot")
     if found := tuple(_WRITTEN_TOGETHER.findall(word)):
         return found
     tail = next((one for one in TAILS if word.endswith(one)), "")
