@@ -3,13 +3,16 @@
 import re
 from dataclasses import dataclass
 
+from motor_identification.logs.columns.names.path import find_field
 from motor_identification.logs.columns.names.quantity import is_speed_by_words, tell_quantity
 from motor_identification.logs.columns.names.words import find_device, find_side, split_words
 from motor_identification.logs.columns.vocabulary import (
     COUNTS_IN_BRACKETS,
+    INPUTS,
     MEASURED,
     MOVES,
     OF_OTHERS,
+    OUTPUTS,
     SIDES,
     UNIT_BY_SPELLING,
     UNITS,
@@ -25,6 +28,9 @@ _INSIDE = words_of("rpm erpm upm krpm rad_s deg_s rad_sec deg_sec deg degrees") 
 # What a speed's unit may be where its name leaves the seconds out, `velocity_rad`; those that may be words, as in
 # `speed_m` of a motor and `speed_rev` of the other way, are units in brackets only.
 _NO_WORDS = words_of("rad deg cm mm")
+_ANY_FIELD = words_of("data value values signal signals") | INPUTS | OUTPUTS  # of a struct that tells what they are
+# What the name of a struct says of all its fields, such as `reference.speed`, whatever they are called.
+_OF_WHOLE_STRUCTS = (None, Quantity.OTHER, Quantity.REFERENCE, Quantity.SUPPLY)
 _A_SECOND = _NO_WORDS | words_of("in ft m rev")
 _PER = {**dict.fromkeys(("s", "sec", "second"), "s"), **dict.fromkeys(("min", "minute"), "min")}
 
@@ -55,11 +61,21 @@ def read_heading(name: str) -> Heading:
     if unit in _A_SECOND and is_speed_by_words(words):
         unit = f"{unit}/s" if in_brackets or unit in _NO_WORDS else ""
     side = device or find_side(words)
-    quantity = tell_quantity(words, unit)
+    quantity = _tell_by_field(name, tell_quantity(words, unit))
     unit = unit or _unit_inside(words, quantity)
     if not unit and quantity in (None, Quantity.DUTY) and _has_unit_of_others(name):  # effort (N)
         quantity = Quantity.OTHER
     return Heading(name, words, quantity, unit, side)
+
+
+def _tell_by_field(name: str, quantity: Quantity | None) -> Quantity | None:
+    """The quantity of a struct's field, `speed_test.u`: by its own name, before that of the struct; else as it was."""
+    field = read_heading(find_field(name)) if find_field(name) else None
+    if field is None or quantity in _OF_WHOLE_STRUCTS or not set(field.words) - _ANY_FIELD:
+        return quantity
+    if quantity is Quantity.TIME:  # `samplingT1.speed`; what is called a time of its own is one
+        return field.quantity
+    return field.quantity or quantity
 
 
 def is_in_volts(heading: Heading) -> bool:

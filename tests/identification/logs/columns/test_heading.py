@@ -94,6 +94,17 @@ theta_dot         | speed          |       |
 velocity_rad      | speed          | rad/s |
 speed (deg)       | speed          | deg/s |
 vel_rad_left      | speed          | rad/s | left
+pwm_step.speed    | speed          |       |
+speed_test.u      | voltage        |       |
+d.samplingT1.w_meas | speed        |       |
+d.samplingT1.th   |                |       |
+d.samplingT1.t    | time           |       |
+time.data         | time           |       |
+reference.speed   | reference      |       |
+motor.speed.values | speed         |       |
+battery.voltage   | supply voltage |       |
+speed.output      | duty           |       |
+Time.1            | time           |       |
 theta_dot [rad]   | speed          | rad/s |
 phi_dot1          | speed          |       |
 theta_dot_left    | speed          |       | left

@@ -24,6 +24,7 @@ from motor_identification.logs.columns.heading import Heading, read_heading, wor
 from motor_identification.logs.columns.roles.candidates import is_numeric
 from motor_identification.logs.columns.roles.drive_column import find_drive_column, find_supply_column
 from motor_identification.logs.columns.roles.motion_column import find_motion_column
+from motor_identification.logs.columns.roles.structs import keep_struct, times_of_struct
 from motor_identification.logs.columns.roles.without_names import pair_by_behaviour, pair_channels
 from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.columns.speed_beside import find_driven_speed
@@ -58,7 +59,7 @@ def find_roles(table: Table, said: Said) -> Roles:
         RecordingError: a column is not there, or which one is meant cannot be told: the sentence asks for it.
     """
     headings = [read_heading(name) for name in table.names if is_numeric(table, name)]
-    time = said.time or (None if said.steady else _time_of(table, headings) or _clock_left(table, headings, said))
+    time = said.time or (None if said.steady else _time_of(table, headings, said) or _clock_left(table, headings, said))
     if said.time:
         table.column(said.time)
     others = [heading for heading in headings if heading.name not in (time, said.supply)]
@@ -88,8 +89,9 @@ def find_roles(table: Table, said: Said) -> Roles:
     )
 
 
-def _time_of(table: Table, headings: Sequence[Heading]) -> str | None:
+def _time_of(table: Table, headings: Sequence[Heading], said: Said) -> str | None:
     named = [heading.name for heading in headings if heading.quantity is Quantity.TIME]
+    named = times_of_struct(named, said.motion or said.voltage or "")
     if len(named) > 1:
         times = {name: read_clock(table, name) for name in named}
         forward = [name for name in named if runs_forward(times[name])]
@@ -187,7 +189,8 @@ def _single(table: Table, headings: Sequence[Heading], said: Said, time: str | N
     if not voltage and not motion and (channels := pair_channels(table, rest)):
         return channels
     side = read_heading(motion or voltage).side  # of two motors, the one that was named
-    rest = _of_its_name(rest, read_heading(motion or voltage)) if motion or voltage else rest
+    if motion or voltage:
+        rest = _of_its_name(keep_struct(rest, motion or voltage), read_heading(motion or voltage))
     motion = motion or find_motion_column(table, rest, side, time, said.unit)
     voltage = voltage or find_drive_column(table, _besides(table, rest, motion), side, ("",))
     return Pair("", voltage, motion)
