@@ -27,7 +27,7 @@ from motor_identification.logs.columns.roles.motion_column import find_motion_co
 from motor_identification.logs.columns.roles.structs import keep_struct, times_of_struct
 from motor_identification.logs.columns.roles.without_names import pair_by_behaviour, pair_channels
 from motor_identification.logs.columns.said import Pair, Said
-from motor_identification.logs.columns.speed_beside import find_driven_speed
+from motor_identification.logs.columns.speed_beside import find_driven_speed, is_summed_up
 from motor_identification.logs.columns.vocabulary import MOVES, Quantity
 from motor_identification.logs.correlation import correlate
 from motor_identification.logs.csv.table import Table
@@ -192,7 +192,11 @@ def _single(table: Table, headings: Sequence[Heading], said: Said, time: str | N
     if motion or voltage:
         rest = _of_its_name(keep_struct(rest, motion or voltage), read_heading(motion or voltage))
     motion = motion or find_motion_column(table, rest, side, time, said.unit)
-    voltage = voltage or find_drive_column(table, _besides(table, rest, motion), side, ("",))
+    if not voltage:
+        steps = _steps_of(table, rest, motion)
+        beside = [one for one in _besides(table, rest, motion) if one.name not in steps]
+        # Where somebody computed what is beside the motion, a column without a telling name is no drive by that alone.
+        voltage = find_drive_column(table, beside, side, () if steps else ("",))
     return Pair("", voltage, motion)
 
 
@@ -209,6 +213,12 @@ def _besides(table: Table, headings: Sequence[Heading], motion: str) -> list[Hea
     moved = table.numbers(motion)
     again = {one.name for one in headings if one.quantity is None and _is_again(table.numbers(one.name), moved)}
     return [one for one in headings if one.name not in again | {motion}]
+
+
+def _steps_of(table: Table, headings: Sequence[Heading], motion: str) -> set[str]:
+    """Columns without telling names that are what a position went by since the row before: `Delta`."""
+    moved = table.numbers(motion)
+    return {one.name for one in headings if one.quantity is None and is_summed_up(moved, table.numbers(one.name))}
 
 
 def _is_again(values: Floats, others: Floats) -> bool:

@@ -169,3 +169,17 @@ def test_the_column_that_is_left_is_the_clock_if_it_always_goes_on(back: bool, t
     given = columns(a=FOLLOWS, b=DRIVE, c=clock)
     assert find_roles(given, Said(voltage="b", motion="a")).time == time
     assert find_roles(columns(**given.cells, d=np.sin(TIME)), Said(voltage="b", motion="a")).time is None
+
+
+def test_what_a_position_went_by_since_the_row_before_is_no_duty() -> None:
+    """A student's log of one step, with the differences that he computed beside the counts."""
+    counts = np.floor(np.cumsum(np.minimum(np.arange(200.0), 70.0)))
+    logged = {"Time": np.arange(200.0), "Position": counts, "Delta": np.diff(counts, prepend=0.0)}
+    with pytest.raises(RecordingError, match="no column is the voltage or duty.*--constant-voltage V"):
+        find_roles(columns(**logged), Said())
+    driven = find_roles(columns(**logged, PWM=np.full(200, 255.0)), Said())
+    assert driven.pairs == (Pair("", "PWM", "Position"),)
+    with pytest.raises(RecordingError, match="Say --voltage and one of Linearized"):
+        find_roles(columns(**logged, Linearized=np.log1p(np.arange(200.0))), Said())
+    other = find_roles(columns(**(logged | {"Delta": np.repeat([100.0, 255.0], 100)})), Said())
+    assert other.pairs == (Pair("", "Delta", "Position"),), "a column without a telling name may drive"
