@@ -58,6 +58,20 @@ def test_a_motor_that_stood_at_little_voltage_before_has_friction() -> None:
     assert drop_unpowered_end(logged(volts, np.zeros(1200)), SPEED)[1] == [], "one that never runs"
 
 
+@pytest.mark.parametrize("kind", [Kind.SPEED, Kind.COUNT])
+@pytest.mark.parametrize(("left", "found"), [(0.02, 640), (0.9, 440)])
+def test_a_servo_that_runs_out_at_little_voltage_has_a_supply(kind: Kind, left: float, found: int) -> None:
+    """It comes to its place at little voltage, and its friction holds it at more. A motor that ran on has none later.
+
+    left: what is left of the speed at the end of 40 rows at little voltage.
+    """
+    volts = np.concatenate((np.full(200, 5.0), [-1.0], np.full(199, 5.0), np.linspace(1.2, 0.9, 40)))
+    speed = np.concatenate((np.full(400, 50.0), 50.0 * left ** np.linspace(0.0, 1.0, 40), np.zeros(200)))
+    volts = np.concatenate((volts, np.linspace(3.0, 2.6, 200)))  # as its integral goes down
+    signals = logged(volts, speed if kind is Kind.SPEED else np.floor(np.cumsum(speed)))
+    assert len(drop_unpowered_end(signals, replace(SPEED, kind=kind))[0]) in (found, found + 1)
+
+
 def stopped(level: float, rest: int, kind: Kind) -> Signals:
     """A staircase to a level, at which the motor comes to a stop of its own over five rows, and rests."""
     volts = np.repeat([1.0, 2.0, 3.0, level], 40)
