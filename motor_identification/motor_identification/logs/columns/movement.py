@@ -49,7 +49,13 @@ def is_kind_sure(values: Floats, drive: Floats) -> bool:
 
 
 def _count_time_constants(values: Floats, drive: Floats) -> float:
-    """How many time constants there are in a column, shape (K,), that forgets what was under a drive, shape (K,)."""
+    """How many time constants there are in a column, shape (K,), that forgets what was under a drive, shape (K,).
+
+    Under a drive that is the same in all rows, as of a log of one step, those before the motor moves tell nothing: it
+    was not there yet.
+    """
+    if np.ptp(drive) == 0.0 and (start := int(np.argmax(values != values[0]))):
+        values, drive = values[start - 1 :], drive[start - 1 :]
     step = np.diff(values)
     columns = np.column_stack([values[:-1], drive[:-1], np.ones(len(step))])
     scale = np.max(np.abs(columns), axis=0)

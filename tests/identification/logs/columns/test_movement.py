@@ -118,3 +118,13 @@ def test_an_encoders_angle_in_rad_is_no_voltage() -> None:
     for step in (0.01, 12.0 / 255.0, 5.0 / 1024.0):
         assert not is_encoders_angle(way * step)
     assert not is_encoders_angle(np.repeat([0.0, 5.0, 0.0], 100)), "a step of 5 V is no wrap"
+
+
+@pytest.mark.parametrize("still", [0, 90])
+def test_a_standstill_before_a_single_step_tells_nothing_of_the_kind(still: int) -> None:
+    """A log of one step begins a second before it, in a program that logs no drive: 4 V were said for all rows."""
+    speed = 5.0 * (1.0 - np.exp(-np.arange(90.0) / 5.0))
+    speed = np.concatenate((np.zeros(still), 0.18 * np.rint(speed / 0.18 + 0.4 * np.sin(np.arange(90.0) * 2.4))))
+    drive = np.full(90 + still, 4.0)
+    assert guess_kind(speed, drive) is Kind.SPEED
+    assert guess_kind(np.cumsum(speed), drive) is Kind.POSITION
