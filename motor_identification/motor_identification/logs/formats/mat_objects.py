@@ -1,4 +1,4 @@
-"""Signals in objects of MATLAB: iddata, timeseries, the output and the data sets of Simulink, as matrices with times.
+"""Signals in objects of MATLAB: iddata, tables, timeseries, the output and the data sets of Simulink.
 
 Objects of newer classes are kept apart from the variables: a table of classes, objects and their properties, whose
 values are the cells behind it; a variable, or a property that holds another object, has its number.
@@ -89,6 +89,8 @@ def _lines(text: Value | None) -> list[str]:
 def read_objects(data: bytes) -> dict[str, Value]:
     """Read the signals in a file's objects of newer classes: matrices (K, 1 + n) with the times before the values.
 
+    A table's columns have their own names, of several tables `table.column`.
+
     Raises:
         BrokenFileError: they cannot be.
     """
@@ -110,7 +112,16 @@ def read_objects(data: bytes) -> dict[str, Value]:
             objects.look_into(reference, name, 0)
     except (IndexError, KeyError, ValueError, StructError, UnicodeDecodeError) as error:
         raise BrokenFileError("its objects cannot be") from error
-    return objects.found
+    return {**objects.found, **_name_columns(objects.tables)}
+
+
+def _name_columns(tables: Mapping[str, Mapping[str, Value]]) -> dict[str, Value]:
+    several = len(tables) > 1
+    return {
+        f"{table}.{name}" if several else name: values
+        for table, columns in tables.items()
+        for name, values in columns.items()
+    }
 
 
 class _Objects:
@@ -118,6 +129,7 @@ class _Objects:
 
     def __init__(self, store: memoryview, tally: Tally) -> None:
         self.found: dict[str, Value] = {}
+        self.tables: dict[str, dict[str, Value]] = {}
         self._tally, self._seen = tally, set[int]()
         top = next(split_elements(store, 8, tally.order))  # behind a header of its own
         wrapper = self._fields(top.data)["MCOS"]
@@ -168,6 +180,8 @@ class _Objects:
         own = self._text(values.get("Name")) or name
         if kind == "timeseries":
             self._take_series(values, own)
+        if kind == "table":
+            self._take_table(values, name)
         for inner in INNER.get(kind, ()):
             if inner in values:
                 self.look_into(values[inner], own if kind in ("Signal", "State") else name, depth)
@@ -182,6 +196,15 @@ class _Objects:
             return
         rows = np.moveaxis(data.astype(np.float64), data.shape.index(times.size), 0).reshape(times.size, -1)
         self.found.setdefault(name or "data", np.column_stack([times.ravel(), rows]))
+
+    def _take_table(self, values: Mapping[str, memoryview], name: str) -> None:
+        """Take the columns of a table that hold numbers, by their names."""
+        names, columns = values.get("varnames"), values.get("data")
+        if names is None or columns is None:
+            return
+        pairs = zip(map(self._text, self._list_cells(names)), self._list_cells(columns), strict=False)
+        read = {word: self._numbers(one) for word, one in pairs if read_kind(one, self._tally) in NUMERIC}
+        self.tables[name] = {word: one for word, one in read.items() if one is not None and one.ndim == 2}
 
     def _times(self, reference: memoryview | None) -> Floats | None:
         """The times that the information of a timeseries tells: listed, or by their begin and step."""

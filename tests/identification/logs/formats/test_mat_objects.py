@@ -143,6 +143,26 @@ def test_the_output_of_a_simulation_is_read_by_its_fields(tmp_path: Path) -> Non
     assert list(found) == ["tout", "u", "speed"] and np.array_equal(found["u"], DRIVE)
 
 
+def saved_table(**columns: bytes) -> tuple[str, dict[str, bytes]]:
+    return "table", {"data": cell(*columns.values()), "varnames": cell(*map(text, columns)), "rownames": cell()}
+
+
+def test_a_table_is_read_by_the_names_of_its_columns(tmp_path: Path) -> None:
+    """Its own times are a column; one of words is none of ours."""
+    notes = {"note": cell(*[text("run")] * 50)}
+    store = objects_of(saved_table(time=numbers(TIME), u=numbers(DRIVE), **notes, rpm=numbers(SPEED)))
+    found = read(tmp_path, opaque("T", "table", refer(1)), store)
+    assert list(found) == ["time", "u", "rpm"] and np.array_equal(found["rpm"], SPEED)
+
+
+def test_several_tables_are_told_apart(tmp_path: Path) -> None:
+    columns = {"time": numbers(TIME), "u": numbers(DRIVE)}
+    store = objects_of(saved_table(**columns, rpm=numbers(SPEED)), saved_table(**columns, rpm=numbers(-SPEED)))
+    found = read(tmp_path, opaque("exp1", "table", refer(1)), opaque("exp2", "table", refer(2)), store)
+    assert list(found) == [f"exp{one}.{name}" for one in (1, 2) for name in ("time", "u", "rpm")]
+    assert np.array_equal(found["exp2.rpm"], -SPEED)
+
+
 def test_objects_of_other_classes_are_told_of(tmp_path: Path) -> None:
     store = objects_of(("idtf", {"Numerator": numbers(SPEED)}))
     with pytest.raises(RecordingError, match="holds objects of MATLAB .*save their Time and Data as vectors"):
