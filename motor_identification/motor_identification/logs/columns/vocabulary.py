@@ -40,7 +40,9 @@ MEASURED = _row(
     "misurato misurata gemessen ölçülen zmierzona měřená 实际 测量 反馈 当前 実際"
 )
 # What a motor moves, and what moves on by itself: its angle is not the shaft's.
-BODIES = _row("pendulum pendulo péndulo pêndulo pendel pendule pendolo wahadło wahadlo sarkaç маятник beam ball cart")
+BODIES = _row(
+    "pendulum pend pendulo péndulo pêndulo pendel pendule pendolo wahadło wahadlo sarkaç маятник beam ball cart"
+)
 # Of words that are written together, these come last: Motordrehzahl, Sollspannung.
 TAILS = _row(
     "drehzahl spannung geschwindigkeit strom winkel zeit temperatur sollwert istwert spanning snelheid toerental "

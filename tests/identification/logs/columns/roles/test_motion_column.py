@@ -95,6 +95,8 @@ def test_a_pendulum_is_what_the_motor_moves() -> None:
     given = table(t="t", u="u", **{"Motor velocity [rad/s]": "y", pendulum: "n"})
     assert find_roles(given, Said()).pairs == (Pair("", "u", "Motor velocity [rad/s]"),)
     assert find_roles(table(t="t", u="u", **{pendulum: "n"}), Said()).pairs == (Pair("", "u", pendulum),)
+    furuta = table(t="t", PWM="u", pendAngleZeroUp="n", pendAngleZeroDwn="n", baseAngle="y")
+    assert find_roles(furuta, Said()).pairs == (Pair("", "PWM", "baseAngle"),)
     angles = table(t="t", u="u", **{"arm angle [rad]": "y", pendulum: "n"})
     assert find_roles(angles, Said()).pairs == (Pair("", "u", "arm angle [rad]"),)
 
