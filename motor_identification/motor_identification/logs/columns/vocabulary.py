@@ -66,7 +66,7 @@ WORDS: dict[Quantity, frozenset[str]] = {
         "regelabweichung "
         "heading dir direction drehrichtung richtung yaw pitch roll rate "
         "efficiency eficiencia eficiência rendement rendimiento rendimento rendimenti wirkungsgrad efficienza verim "
-        "sprawność účinnost humidity soc"
+        "sprawność účinnost humidity soc score zscore"
     ),
     Quantity.REFERENCE: _row(
         "ideal target sollwert consigne referencia referência référence referenz riferimento setpoint set sp ref "

@@ -201,6 +201,10 @@ Hoek (deg)        | position       | deg   |
 speed_cmd         | reference      |       |
 r                 | reference      |       |
 temperature       | other          |       |
+Test #            | other          |       |
+trial_no          | other          |       |
+speed test        | speed          |       |
+Z_Score_Tach Reading (RPM) | other |  rpm  |
 y                 |                |       |
 column 2          |                |       |
 """

@@ -13,6 +13,8 @@ from motor_identification.logs.columns.vocabulary import (
 
 _ORDERS = frozenset(["command", "cmd", "commanded"])  # of a speed or a position: what it should be
 _PULSES = frozenset(["esc", "signal", "pwm", "throttle", "pulse", "width", "command", "cmd", "output"])
+_TESTS = frozenset(["test", "trial"])  # whose numbers are no times, however evenly they go on
+_NUMBERS = frozenset(["no", "nr", "num", "number"])
 _SENSORS = frozenset(["encoder", "enc", "qei"])
 AXES = frozenset(["yaw", "pitch", "roll"])
 _JOINT_FIELDS = frozenset(["position", "velocity", "effort"])
@@ -31,7 +33,7 @@ def tell_quantity(words: tuple[str, ...], unit: str) -> Quantity | None:
     if _is_duty_whatever_its_unit(words, unit, told):
         return Quantity.DUTY
     by_unit = UNITS[unit][0] if unit else None
-    if Quantity.OTHER in told and "rate" not in words:
+    if (Quantity.OTHER in told and "rate" not in words) or _numbers_tests(words):
         return Quantity.OTHER
     if Quantity.REFERENCE in told:
         return Quantity.REFERENCE
@@ -46,6 +48,11 @@ def tell_quantity(words: tuple[str, ...], unit: str) -> Quantity | None:
     if Quantity.VOLTAGE in told and Quantity.DUTY in told:
         return Quantity.VOLTAGE
     return _quantity_of_an_output(words, told) or (told[0] if told else None)
+
+
+def _numbers_tests(words: tuple[str, ...]) -> bool:
+    """Whether a column numbers tests, `Test #`, `trial_no`."""
+    return bool(_TESTS & set(words)) and set(words) <= _TESTS | _NUMBERS
 
 
 def is_speed_by_words(words: tuple[str, ...]) -> bool:

@@ -183,3 +183,10 @@ def test_what_a_position_went_by_since_the_row_before_is_no_duty() -> None:
         find_roles(columns(**logged, Linearized=np.log1p(np.arange(200.0))), Said())
     other = find_roles(columns(**(logged | {"Delta": np.repeat([100.0, 255.0], 100)})), Said())
     assert other.pairs == (Pair("", "Delta", "Position"),), "a column without a telling name may drive"
+
+
+def test_numbers_of_tests_are_no_times() -> None:
+    """A sheet of a test stand, a row a load: 1 ms apart they were read as a recording of 0.15 s."""
+    sheet = {"Test #": np.arange(1.0, 201.0), "Applied Voltage (V)": DRIVE, "Tach Reading (RPM)": MOVED}
+    assert find_roles(columns(**sheet, **{"Z_Score_Tach Reading (RPM)": MOVED - 3.0}), Said()).time is None
+    assert find_roles(columns(**(sheet | {"Test #": DRIVE, "t": TIME})), Said()).time == "t"
