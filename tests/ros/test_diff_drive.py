@@ -1,5 +1,6 @@
 """A robot of two simulated motors as a user drives it: there, its pose, one wheel that is switched off, and the end."""
 
+import time
 from collections.abc import Callable
 from math import sin
 from subprocess import Popen
@@ -14,10 +15,17 @@ from rcl_interfaces.srv import SetParameters
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
-from workbench import Bench, end
+from workbench import DOMAIN, Bench, end
 
+from motor_examples.diff_drive import drive, wheel
+from motor_examples.diff_drive.kinematics import STILL
+from motor_examples.diff_drive.kinematics import Twist as Velocity
+from motor_examples.diff_drive.node import DiffDrive
+from motor_model.sample import Info, Sample
 from motor_msgs.msg import ControlState
 from motor_ros import qos
+from motor_ros.clocks.hold_ups import boot_time
+from motor_ros.loopback import stay_on_this_machine
 
 Start = Callable[..., "Popen[str]"]
 SIDES = ("left", "right")
@@ -63,6 +71,35 @@ def test_a_drive_whose_limit_is_misspelt_asks_for_no_motion(bench: Bench, start:
     _, err = end(process)
     said = "There is no parameter max_lineer, and max_linear may be meant: correct that, and start the drive again."
     assert said in err and not any(one.data for one in references)
+
+
+def hear_both_wheels(node: DiffDrive) -> None:
+    """Both controllers run, and have just been heard."""
+    for motor in (node._left, node._right):
+        told = wheel.Wheel(motor.wheel.name, info=Info(single_channel=False), sample=Sample(1, 0.0, 1.0))
+        motor.wheel = wheel.follow_controller(told, "running", "", 1.0, boot_time())
+        motor.wheel = wheel.follow_sample(motor.wheel, Sample(2, 0.0, 1.0), boot_time())
+
+
+def test_a_drive_whose_computer_was_suspended_does_not_go_on_by_itself(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The clock that is never set stands still meanwhile, so that the velocity was as fresh as before."""
+    asleep, read = [0.0], time.clock_gettime
+    monkeypatch.setattr(time, "clock_gettime", lambda it: read(it) + asleep[0] * (it == time.CLOCK_BOOTTIME))
+    stay_on_this_machine()
+    rclpy.init(args=[], domain_id=int(DOMAIN))
+    node = DiffDrive()
+    try:
+        hear_both_wheels(node)
+        node._state = drive.take_command(node._config, node._state, Velocity(0.3, 0.0), boot_time())
+        node._on_timer()
+        assert node._decision.reason == drive.DRIVING
+        asleep[0] = 600.0
+        hear_both_wheels(node)
+        node._on_timer()
+        assert node._decision.reason.startswith("The drive stood still for 600.") and node._state.twist == STILL
+    finally:
+        node.destroy_node()
+        rclpy.shutdown()
 
 
 @pytest.mark.long

@@ -5,7 +5,8 @@ Whatever is in doubt, the robot stands:
     cmd_vel is older than its timeout    slow down to 0 within the limits, then let go of both motors
     cmd_vel is not a number              the same
     cmd_vel has an old stamp             the same
-    this drive stood still for 1 s       the same for what comes in the next 3.5 s: it may have been sent meanwhile
+    this drive stood still for 1 s       the same for what comes in the next 3.5 s: it may have been sent meanwhile; and
+                                         0 for both at once: what was obeyed before does not go on by itself
     one wheel is in trouble              0 for both at once, then let go; a robot on one wheel turns in circles
 
 While it moves, the wheels are kept to what they should have turned by now: `travel_gain` times what a wheel is behind
@@ -34,6 +35,7 @@ from motor_examples.diff_drive.wheel import Wheel, find_trouble
 
 MOST_BEHIND = 1.0  # [rad] that a wheel makes up for: one that slipped or was blocked does not race afterwards
 LONGEST_STEP = 0.1  # [s] of the limits' ramp: after a pause of the computer the robot does not jump
+LONGEST_PAUSE = 1.0  # [s] without a step, after which a robot that goes on by itself is a surprise
 STANDING = 0.3  # [s] at 0 rad/s and reported as such, before the motors are let go
 PATIENCE = 2.0  # [s] at 0 rad/s after which they are let go whatever is reported
 
@@ -48,6 +50,7 @@ PLAYED = (
     "A recording of cmd_vel is played ({}), and nothing is obeyed until that has ended. To drive a robot by a "
     "recording, use ros2 run motor_identification play BAG --topics cmd_vel."
 )
+STOOD = "The drive stood still for {:.1f} s (Ctrl-Z, a suspended or overloaded computer)."
 NOT_A_NUMBER = "cmd_vel is not a number: send a finite velocity."
 BEGIN = "{} Both wheels stop. Then send a cmd_vel of 0, or pause, before the next velocity."
 
@@ -91,7 +94,7 @@ class Decision:
 def take_command(config: Config, state: State, twist: Twist, now: float, age: float = 0.0) -> State:
     """Take a velocity that comes at `now` [s]; one that is not a number, or old by its stamp (age [s]), is a stop."""
     silence = state.commanded is None or now - state.commanded > config.cmd_vel_timeout > 0.0
-    state = replace(_advance(config, state, now), commanded=now)
+    state = replace(_advance(config, _notice_pause(state, now), now), commanded=now)
     if not (isfinite(twist.linear) and isfinite(twist.angular)):
         return replace(state, command=None, trouble=NOT_A_NUMBER)
     if not abs(age) <= (config.cmd_vel_timeout or inf):
@@ -108,6 +111,7 @@ def refuse_command(state: State, why: str, now: float) -> State:
 
 def step(config: Config, state: State, wheels: tuple[Wheel, Wheel], now: float) -> tuple[Decision, State]:
     """Decide what both motors are told at `now` [s]."""
+    state = _notice_pause(state, now)
     driven = 0.0 if state.since is None else now - state.since
     trouble = next(filter(None, (find_trouble(wheel, now, driven) for wheel in wheels)), "")
     if trouble:
@@ -122,6 +126,14 @@ def step(config: Config, state: State, wheels: tuple[Wheel, Wheel], now: float) 
         return Decision(None, True, reason, healthy), replace(state, since=None, still_since=None)
     reason = DRIVING if state.command is not None else reason
     return Decision(_references(config, state), False, reason, healthy), state
+
+
+def _notice_pause(state: State, now: float) -> State:
+    """Stop where the robot moved when this drive last ran, and that is long ago."""
+    paused = 0.0 if state.stepped is None else now - state.stepped
+    if paused <= LONGEST_PAUSE or (state.command is None and state.twist == STILL):
+        return state
+    return replace(state, command=None, twist=STILL, stepped=now, trouble=STOOD.format(paused))
 
 
 def _advance(config: Config, state: State, now: float) -> State:

@@ -1,6 +1,5 @@
 """Talk to one wheel's motor: its samples and its controller's state in, references out."""
 
-import time
 from dataclasses import replace
 
 from rcl_interfaces.msg import ParameterType
@@ -15,6 +14,7 @@ from motor_examples.diff_drive.wheel import Wheel, follow_controller, follow_sam
 from motor_model.errors import MotorError
 from motor_msgs.msg import ControlState, MotorInfo, MotorSpeed
 from motor_ros import qos
+from motor_ros.clocks.hold_ups import boot_time
 from motor_ros.messages import info_of, sample_of
 
 
@@ -62,7 +62,7 @@ class Motor:
         self.wheel = replace(self.wheel, reference_timeout=response.values[0].double_value if known else None)
 
     def _on_speed(self, message: MotorSpeed) -> None:
-        self.wheel = follow_sample(self.wheel, sample_of(message), time.monotonic())
+        self.wheel = follow_sample(self.wheel, sample_of(message), boot_time())
 
     def _on_info(self, message: MotorInfo) -> None:
         try:
@@ -72,4 +72,4 @@ class Motor:
 
     def _on_control_state(self, message: ControlState) -> None:
         said = (message.state, message.reason, message.voltage)
-        self.wheel = follow_controller(self.wheel, *said, time.monotonic())
+        self.wheel = follow_controller(self.wheel, *said, boot_time())

@@ -1,6 +1,5 @@
 """Drive a robot with two wheels as a ROS node: cmd_vel in, two references out, odometry back."""
 
-import time
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray
@@ -19,7 +18,7 @@ from motor_examples.diff_drive.odometry import Pose, advance_pose
 from motor_examples.diff_drive.parameters import PROGRAM, ROWS, config_of
 from motor_model.errors import MotorError
 from motor_ros import qos
-from motor_ros.clocks.hold_ups import STOOD_STILL, HoldUps
+from motor_ros.clocks.hold_ups import STOOD_STILL, HoldUps, boot_time
 from motor_ros.clocks.steady_timer import steady_timer
 from motor_ros.graph.commanders import Commanders
 from motor_ros.interface_types import NotInstalled, load_message
@@ -83,7 +82,7 @@ class DiffDrive(Node):
             return None
 
     def _on_cmd_vel(self, message: Any, arrival: Arrival) -> None:
-        twist, age, now = twist_of(message), 0.0, time.monotonic()
+        twist, age, now = twist_of(message), 0.0, boot_time()
         if isinstance(message, TwistStamped):
             age = stamp_age(message.header.stamp, self.get_clock().now().nanoseconds)
         if twist != STILL and self._hold_ups.bars(arrival.waited):
@@ -94,11 +93,11 @@ class DiffDrive(Node):
     def _on_timer(self) -> None:
         self._input.poll()
         if players := self._commanders.players:
-            self._state = drive.refuse_command(self._state, drive.PLAYED.format(players), time.monotonic())
+            self._state = drive.refuse_command(self._state, drive.PLAYED.format(players), boot_time())
         if self._doubt:
-            self._state = drive.refuse_command(self._state, self._doubt, time.monotonic())
+            self._state = drive.refuse_command(self._state, self._doubt, boot_time())
         wheels = (self._left.wheel, self._right.wheel)
-        decision, self._state = drive.step(self._config, self._state, wheels, time.monotonic())
+        decision, self._state = drive.step(self._config, self._state, wheels, boot_time())
         self._tell(decision)
         if decision.reason != self._decision.reason:
             say = self.get_logger()

@@ -17,6 +17,11 @@ STOOD_STILL = (
 )
 
 
+def boot_time() -> float:
+    """Read a clock [s] that nobody sets, and that goes on while the computer is suspended."""
+    return time.clock_gettime(time.CLOCK_BOOTTIME)
+
+
 class HoldUps:
     """Notices that this process stood still: what comes then may have been sent long ago, and says not when.
 
@@ -24,9 +29,7 @@ class HoldUps:
     first instant, too. But a start may take its time: after one that did, a message is as old as its sender says.
     """
 
-    def __init__(
-        self, node: Node, clock: Callable[[], float] = lambda: time.clock_gettime(time.CLOCK_BOOTTIME)
-    ) -> None:
+    def __init__(self, node: Node, clock: Callable[[], float] = boot_time) -> None:
         """`clock` [s] goes on while the computer is suspended."""
         self._clock = clock
         self._looked, self._woke = clock(), -inf

@@ -147,6 +147,36 @@ def test_a_velocity_that_is_refused_is_a_stop_until_they_begin_again() -> None:
     assert robot.run(0.4, SPEED).references == wheel_speeds(ROBOT, SPEED)
 
 
+@pytest.mark.parametrize("timeout", [0.0, 10.0])
+@pytest.mark.parametrize(("pause", "goes_on"), [(0.9, True), (1.1, False), (3.0, False)])
+def test_a_drive_that_stood_still_does_not_go_on_by_itself(timeout: float, pause: float, goes_on: bool) -> None:
+    """Ctrl-Z and fg, or a suspended computer: the motors have been let go meanwhile, and nobody expects a motion."""
+    robot = Robot(Limits(linear_acceleration=1.0), timeout)
+    robot.run(1.0, SPEED)
+    robot.now += pause
+    decision = robot.run(DT)
+    assert (decision.references == wheel_speeds(ROBOT, SPEED)) is goes_on
+    assert decision.reason.startswith(f"The drive stood still for {pause:.1f} s (Ctrl-Z") is not goes_on
+    if goes_on:
+        return
+    assert decision.references == Wheels(0.0, 0.0)
+    assert robot.run(3.0, SPEED).references is None
+    robot.run(DT, STILL)
+    assert robot.run(1.0, SPEED).references == wheel_speeds(ROBOT, SPEED)
+
+
+def test_a_robot_that_was_slowing_down_when_its_drive_stood_still_stays_where_it_is() -> None:
+    for sent in (None, STILL):
+        robot = Robot(Limits(linear_acceleration=1.0))
+        robot.run(1.0, SPEED)
+        robot.run(0.6)
+        assert robot.state.command is None and robot.state.twist.linear > 0.3
+        robot.now += 5.0
+        if sent is not None:
+            robot.send(sent)
+        assert robot.run(DT).references == Wheels(0.0, 0.0)
+
+
 def test_a_wheel_that_stays_behind_makes_up_for_it_and_no_more_than_a_little() -> None:
     for gain, least, most in ((2.0, 0.0, 0.01), (0.0, 0.4, 0.6)):
         robot = Robot(gain=gain)
