@@ -62,15 +62,37 @@ def held(timeout: float) -> SetParameters.Request:
     return SetParameters.Request(parameters=[Parameter(name="reference_timeout", value=value)])
 
 
-def test_a_drive_whose_limit_is_misspelt_asks_for_no_motion(bench: Bench, start: Start) -> None:
-    process = start("motor_examples", "diff_drive", "--ros-args", "-p", "max_lineer:=0.1")
-    references = bench.hear(Float64, "left/motor/reference", qos.REFERENCE)
+def start_wheels(start: Start, *timeouts: float) -> None:
+    """Two simulated motors, and a controller for each that drops a reference after so long [s]."""
+    for side, timeout in zip(SIDES, timeouts, strict=True):
+        options = ("--ros-args", "-r", f"__ns:=/{side}", "-p")
+        start("motor_sim", "motor_sim", *options, f"name:={side}", "-p", "single_channel:=false")
+        start("motor_control", "motor_control", *options, f"reference_timeout:={timeout}", "-p", "latency_limit:=0.5")
+
+
+@pytest.mark.parametrize(
+    ("given", "timeout", "words"),
+    [
+        ("max_lineer", 2.0, "There is no parameter max_lineer, and max_linear may be meant: correct that, and start"),
+        ("max_linear", 0.0, "The controller of the right wheel would go on if this drive died"),
+        ("max_linear", 60.0, "The controller of the right wheel would go on for 60 s if this drive died"),
+    ],
+)
+def test_a_drive_in_doubt_asks_two_motors_for_no_motion(
+    bench: Bench, start: Start, given: str, timeout: float, words: str
+) -> None:
+    """Not for a moment, whoever begins again and again; the same robot drives in the test below."""
+    start_wheels(start, 2.0, timeout)
+    start("motor_examples", "diff_drive", "--ros-args", "-p", f"{given}:=0.1")
+    references = [bench.hear(Float64, f"{side}/motor/reference", qos.REFERENCE) for side in SIDES]
+    states = [bench.hear(ControlState, f"{side}/motor/control_state", qos.CONTROL_STATE) for side in SIDES]
+    poses = bench.hear(Odometry, "odom", qos.ODOMETRY)
     driver = Driver(bench)
     driver.twist = (0.4, 1.0)
-    bench.wait(lambda: driver.reason != "", "the drive")
-    _, err = end(process)
-    said = "There is no parameter max_lineer, and max_linear may be meant: correct that, and start the drive again."
-    assert said in err and not any(one.data for one in references)
+    bench.wait(lambda: all(states) and driver.reason.startswith(words), "the words")
+    seen = len(poses)
+    bench.wait(lambda: len(poses) > seen + 100, "two seconds of them")
+    assert not any(one.data for side in references for one in side) and poses[-1].pose.pose.position.x == 0.0
 
 
 def hear_both_wheels(node: DiffDrive) -> None:
@@ -104,10 +126,7 @@ def test_a_drive_whose_computer_was_suspended_does_not_go_on_by_itself(monkeypat
 
 @pytest.mark.long
 def test_a_robot_is_driven_and_stops_where_one_wheel_does(bench: Bench, start: Start) -> None:
-    for side in SIDES:
-        options = ("--ros-args", "-r", f"__ns:=/{side}", "-p")
-        start("motor_sim", "motor_sim", *options, f"name:={side}", "-p", "single_channel:=false")
-        start("motor_control", "motor_control", *options, "reference_timeout:=2.0", "-p", "latency_limit:=0.5")
+    start_wheels(start, 2.0, 2.0)
     robot = ("-p", f"wheel_radius:={RADIUS}", "-p", f"wheel_separation:={SEPARATION}", "-p", "right_reversed:=true")
     drive = start("motor_examples", "diff_drive", "--ros-args", *robot)
     poses = bench.hear(Odometry, "odom", qos.ODOMETRY)

@@ -31,7 +31,7 @@ from motor_examples.diff_drive.kinematics import (
     limit_twist,
     wheel_speeds,
 )
-from motor_examples.diff_drive.wheel import Wheel, find_trouble
+from motor_examples.diff_drive.wheel import Wheel, awaits_answer, find_trouble
 
 MOST_BEHIND = 1.0  # [rad] that a wheel makes up for: one that slipped or was blocked does not race afterwards
 LONGEST_STEP = 0.1  # [s] of the limits' ramp: after a pause of the computer the robot does not jump
@@ -39,6 +39,7 @@ LONGEST_PAUSE = 1.0  # [s] without a step, after which a robot that goes on by i
 STANDING = 0.3  # [s] at 0 rad/s and reported as such, before the motors are let go
 PATIENCE = 2.0  # [s] at 0 rad/s after which they are let go whatever is reported
 
+ASKING = "Both controllers are asked how long they would go on without this drive; until they answer, it waits."
 IDLE = "No velocity on cmd_vel; both motors are left alone."
 DRIVING = "Driving."
 STALE = "The last cmd_vel is older than cmd_vel_timeout ({:g} s)."
@@ -120,6 +121,8 @@ def step(config: Config, state: State, wheels: tuple[Wheel, Wheel], now: float) 
     healthy, reason = not state.trouble, BEGIN.format(state.trouble) if state.trouble else state.reason
     if state.command is None and state.since is None:
         return Decision(None, False, reason, healthy), replace(state, twist=STILL, behind=Wheels(0.0, 0.0))
+    if state.since is None and any(awaits_answer(wheel, now) for wheel in wheels):
+        return Decision(None, False, ASKING, healthy), replace(state, twist=STILL, behind=Wheels(0.0, 0.0))
     still_since = (now if state.still_since is None else state.still_since) if state.twist == STILL else None
     state = replace(state, since=now if state.since is None else state.since, still_since=still_since)
     if state.command is None and _stands(state, wheels, now):

@@ -15,6 +15,7 @@ from motor_model.errors import MotorError
 from motor_msgs.msg import ControlState, MotorInfo, MotorSpeed
 from motor_ros import qos
 from motor_ros.clocks.hold_ups import boot_time
+from motor_ros.graph.publishers import Id, list_publishers, publisher_ids
 from motor_ros.messages import info_of, sample_of
 
 
@@ -31,7 +32,8 @@ class Motor:
         state = qos.newest(qos.CONTROL_STATE)
         heard = node.create_subscription(ControlState, f"{name}/motor/control_state", self._on_control_state, state)
         self._controls = heard.topic_name
-        self._asked: Client | None = None  # for the parameters of who publishes there
+        self._controllers: frozenset[Id] = frozenset()  # who publishes there
+        self._asked: Client | None = None  # for the parameters of the one who does
 
     def refer(self, speed: float) -> None:
         """Ask for a speed [rad/s], forwards."""
@@ -42,24 +44,34 @@ class Motor:
         if self._release.service_is_ready():
             self._release.call_async(Trigger.Request())
 
+    def meet_controller(self) -> None:
+        """See who controls the wheel, and ask at once whoever is new."""
+        there = publisher_ids(self._node, self._controls)
+        if there != self._controllers:
+            self._controllers = there
+            self.wheel = replace(self.wheel, reference_timeout=None, unsaid_since=boot_time() if there else None)
+        if self.wheel.unsaid_since is not None:
+            self.ask_controller()
+
     def ask_controller(self) -> None:
         """Ask the wheel's controller how long it holds a reference."""
-        infos = self._node.get_publishers_info_by_topic(self._controls)
-        if len(infos) != 1:
+        found = list_publishers(self._node, self._controls)
+        if len(found) != 1 or not found[0].node:
             return
-        name = f"{infos[0].node_namespace.rstrip('/')}/{infos[0].node_name}/get_parameters"
+        name = f"{found[0].node}/get_parameters"
         if self._asked is None or self._asked.srv_name != name:
             if self._asked is not None:
                 self._node.destroy_client(self._asked)
             self._asked = self._node.create_client(GetParameters, name)
-        elif self._asked.service_is_ready():
+        if self._asked.service_is_ready():
             request = GetParameters.Request(names=["reference_timeout"])
             self._asked.call_async(request).add_done_callback(self._on_answer)
 
     def _on_answer(self, future: Future) -> None:
         response = future.result()
         known = response is not None and response.values and response.values[0].type == ParameterType.PARAMETER_DOUBLE
-        self.wheel = replace(self.wheel, reference_timeout=response.values[0].double_value if known else None)
+        timeout = response.values[0].double_value if known else None
+        self.wheel = replace(self.wheel, reference_timeout=timeout, unsaid_since=None)
 
     def _on_speed(self, message: MotorSpeed) -> None:
         self.wheel = follow_sample(self.wheel, sample_of(message), boot_time())

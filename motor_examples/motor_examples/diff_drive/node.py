@@ -27,6 +27,7 @@ from motor_ros.numbered_input import Arrival, NumberedInput
 from motor_ros.parameters import declare
 from motor_ros.run import quick_executor, run
 
+LOOK_EVERY = 0.1  # [s] at who controls the wheels
 DOUBT = "{}: correct that, and start the drive again."
 NO_TF = "tf2_msgs is not installed here: no transforms on /tf; the pose is on odom."
 
@@ -62,6 +63,7 @@ class DiffDrive(Node):
             counts=lambda message, _: twist_of(message) == STILL,
         )
         steady_timer(self, 1.0 / float(self._values["rate"]), self._on_timer)
+        steady_timer(self, LOOK_EVERY, self._on_look)
         steady_timer(self, 1.0, self._on_second)
         self.add_on_set_parameters_callback(self._on_parameters)
 
@@ -122,6 +124,10 @@ class DiffDrive(Node):
         self._odometry.publish(odometry_message(self._pose, twist, stamp, self._frames))
         if self._transforms and self._tf:
             self._tf.publish(self._transforms(transforms=[transform_message(self._pose, stamp, self._frames)]))
+
+    def _on_look(self) -> None:
+        self._left.meet_controller()
+        self._right.meet_controller()
 
     def _on_second(self) -> None:
         self._left.ask_controller()

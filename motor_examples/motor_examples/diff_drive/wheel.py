@@ -9,6 +9,8 @@ SILENCE = 0.25  # [s] without a sample, or an answer of the controller: longer t
 UNAPPLIED = 0.1  # [s] of 0 V where the controller asks for a voltage: its first answers take a few samples to act
 ASKED = 0.02  # of max_voltage: less may be rounded to no duty at all
 OBEYED = 0.5  # [s] after which a controller that was given a reference runs
+MOST_HELD = 2.0  # [s] for which a controller may go on alone: a robot at 0.5 m/s goes a metre
+ANSWERS = 3.0  # [s] in which a controller says how long it would; one of another make never does
 RUNNING = "running"
 FAILED = ("stopped", "no_samples")
 
@@ -16,7 +18,7 @@ NO_PLANT = "The {0} wheel has no motor: start its plant in the namespace {0}."
 NO_SAMPLES = "No sample of the {} wheel for {:.1f} s: see whether its plant still runs."
 NO_CONTROLLER = "The {0} wheel has no controller: start motor_control in the namespace {0}."
 HOLDS = (
-    "The controller of the {0} wheel would go on if this drive died: set its reference_timeout, "
+    "The controller of the {0} wheel would go on{1} if this drive died: set its reference_timeout, "
     "ros2 param set /{0}/motor_control reference_timeout 0.5."
 )
 NOT_RUNNING = "The {} wheel does not run: {}"
@@ -39,6 +41,7 @@ class Wheel:
     asked: float = 0.0  # [V] by its controller
     answered: float | None = None  # when its controller was last heard
     reference_timeout: float | None = None  # [s] of its controller; 0: it holds a reference for ever; None: not known
+    unsaid_since: float | None = None  # since when its controller is there without having said that; None: it has
     off_since: float | None = None  # since when the plant applies nothing of what is asked for
 
     @property
@@ -87,10 +90,15 @@ def find_trouble(wheel: Wheel, now: float, driven: float) -> str:
         return NO_SAMPLES.format(wheel.name, now - wheel.heard)
     if wheel.answered is None or now - wheel.answered > SILENCE:
         return NO_CONTROLLER.format(wheel.name)
-    if wheel.reference_timeout == 0.0:
-        return HOLDS.format(wheel.name)
+    if wheel.reference_timeout is not None and not 0.0 < wheel.reference_timeout <= MOST_HELD:
+        return HOLDS.format(wheel.name, f" for {wheel.reference_timeout:g} s" if wheel.reference_timeout else "")
     if wheel.state in FAILED or (driven > OBEYED and wheel.state != RUNNING):
         return NOT_RUNNING.format(wheel.name, wheel.reason or wheel.state)
     if wheel.off_since is not None and now - wheel.off_since > UNAPPLIED:
         return OUTPUT_OFF.format(wheel.name)
     return ""
+
+
+def awaits_answer(wheel: Wheel, now: float) -> bool:
+    """Tell whether a wheel's controller is still to say for how long it would go on alone."""
+    return wheel.unsaid_since is not None and now - wheel.unsaid_since <= ANSWERS

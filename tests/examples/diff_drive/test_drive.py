@@ -24,6 +24,7 @@ class Robot:
         self.now, self.speeds = 10.0, Wheels(0.0, 0.0)
         self.info = Info(edges_per_revolution=1_000_000, single_channel=False)
         self.said = {"left": "running", "right": "running"}
+        self.unsaid: float | None = None  # [s] since when the left controller has not said how long it goes on alone
         self.slip = Wheels(1.0, 1.0)  # share of what is asked for that each wheel turns
         self.edges = [0.0, 0.0]
         self.decisions: list[drive.Decision] = []
@@ -33,7 +34,9 @@ class Robot:
 
     def wheel(self, side: int, name: str) -> Wheel:
         sample = Sample(round(self.now * 1e9), self.speeds[side], 1.0, round(self.edges[side]))
+        unsaid = self.unsaid if name == "left" else None
         said = {"state": self.said[name], "reason": "Blocked.", "answered": self.now, "heard": self.now}
+        said |= {"unsaid_since": unsaid}  # type: ignore[dict-item]
         return replace(Wheel(name, info=self.info, sample=sample, edges=sample.edge_count), **said)  # type: ignore[arg-type]
 
     def run(self, duration: float, twist: Twist | None = None) -> drive.Decision:
@@ -95,6 +98,16 @@ def test_one_wheel_that_stops_stops_the_other(side: str, state: str) -> None:
     assert f"The {side} wheel does not run: Blocked." in decision.reason and "cmd_vel of 0" in decision.reason
     assert robot.run(3.0, SPEED).references is None
     assert [one.release for one in robot.decisions].count(True) == 1
+
+
+def test_nothing_begins_before_both_controllers_have_said_how_long_they_would_go_on_alone() -> None:
+    robot = Robot()
+    robot.unsaid = robot.now
+    assert robot.run(0.4, SPEED) == drive.Decision(None, False, drive.ASKING, True)
+    robot.unsaid = None
+    assert robot.run(DT, SPEED).references == wheel_speeds(ROBOT, SPEED)  # nobody has to begin again for that
+    robot.unsaid = robot.now  # another controller
+    assert robot.run(DT, SPEED).references == wheel_speeds(ROBOT, SPEED)
 
 
 def test_after_a_trouble_velocities_begin_again() -> None:

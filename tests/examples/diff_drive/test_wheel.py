@@ -1,15 +1,18 @@
 """One wheel: its angle by counts, and every reason not to rely on it, from both sides."""
 
 from dataclasses import replace
-from math import tau
+from math import nan, tau
 
 import pytest
 
 from motor_examples.diff_drive.wheel import (
+    ANSWERS,
+    MOST_HELD,
     OBEYED,
     SILENCE,
     UNAPPLIED,
     Wheel,
+    awaits_answer,
     find_trouble,
     follow_controller,
     follow_sample,
@@ -84,9 +87,26 @@ def test_every_trouble_is_said_and_nothing_else() -> None:
 
 def test_a_controller_that_would_go_on_alone_is_not_relied_on() -> None:
     well = follow_controller(turned(TWO, [(0, 0.0)]), "running", "", 3.0, 0.0)
-    for timeout, words in ((None, ""), (0.5, ""), (0.0, "would go on if this drive died")):
+    for timeout, words in (
+        (None, ""),
+        (0.5, ""),
+        (MOST_HELD, ""),
+        (1.01 * MOST_HELD, "would go on for 2.02 s if this drive died"),
+        (3600.0, "The controller of the left wheel would go on for 3600 s if this drive died"),
+        (0.0, "would go on if this drive died"),
+        (nan, "would go on for nan s if this drive died"),
+    ):
         said = find_trouble(replace(well, reference_timeout=timeout), 0.0, 9.0)
         assert words in said and bool(words) == bool(said)
+
+
+def test_a_controller_is_waited_for_until_it_has_said_how_long_it_goes_on_alone() -> None:
+    well = follow_controller(turned(TWO, [(0, 0.0)]), "running", "", 3.0, 0.0)
+    asked = replace(well, unsaid_since=5.0)
+    assert not awaits_answer(well, 5.0)
+    assert awaits_answer(asked, 5.0) and awaits_answer(asked, 5.0 + 0.99 * ANSWERS)
+    assert not awaits_answer(asked, 5.0 + 1.01 * ANSWERS)  # one of another make
+    assert find_trouble(asked, 0.0, 0.0) == ""
 
 
 def test_an_output_that_is_off_is_said_after_a_moment() -> None:
