@@ -29,6 +29,7 @@ from motor_examples.diff_drive.kinematics import (
     Wheels,
     approach_twist,
     limit_twist,
+    limit_wheels,
     wheel_speeds,
 )
 from motor_examples.diff_drive.wheel import Wheel, awaits_answer, find_trouble
@@ -157,11 +158,12 @@ def _follow_travel(state: State, wheels: tuple[Wheel, Wheel]) -> State:
 
 
 def _references(config: Config, state: State) -> Wheels:
-    """Compute the references [rad/s] of both wheels."""
+    """Compute the references [rad/s] of both wheels; one that makes up for its way keeps to its limit, too."""
     wanted = wheel_speeds(config.geometry, state.twist)
     if state.twist == STILL:
         return wanted
-    return Wheels(*(w + config.travel_gain * b for w, b in zip(wanted, state.behind, strict=True)))
+    made_up = (w + config.travel_gain * b for w, b in zip(wanted, state.behind, strict=True))
+    return limit_wheels(config.limits, Wheels(*made_up))
 
 
 def _drop_stale(config: Config, state: State, now: float) -> State:

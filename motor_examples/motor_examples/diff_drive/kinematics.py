@@ -78,6 +78,12 @@ def limit_twist(geometry: Geometry, limits: Limits, twist: Twist) -> Twist:
     return Twist(share * twist.linear, share * twist.angular)
 
 
+def limit_wheels(limits: Limits, wheels: Wheels) -> Wheels:
+    """Slow both wheels [rad/s] down by the same share, until neither is beyond its limit."""
+    share = _share((max(abs(wheels.left), abs(wheels.right)), limits.wheel))
+    return Wheels(share * wheels.left, share * wheels.right)
+
+
 def approach_twist(limits: Limits, start: Twist, wanted: Twist, dt: float) -> Twist:
     """Move from one velocity towards another for dt [s], both parts by the same share of their way."""
     linear, angular = wanted.linear - start.linear, wanted.angular - start.angular

@@ -207,6 +207,16 @@ def test_a_wheel_that_stays_behind_makes_up_for_it_and_no_more_than_a_little() -
     assert robot.run(DT, STILL).references == (0.0, 0.0)  # at rest nothing is added
 
 
+@pytest.mark.parametrize(("limit", "most"), [(10.0, 10.0), (0.0, 30.0)])
+def test_a_wheel_that_makes_up_for_its_way_keeps_to_its_limit(limit: float, most: float) -> None:
+    """A radian is 20 rad/s more at the largest `travel_gain`."""
+    robot = Robot(Limits(wheel=limit), gain=20.0)
+    robot.slip = Wheels(0.0, 1.0)
+    robot.run(2.0, SPEED)
+    asked = [one.references for one in robot.decisions if one.references is not None]
+    assert max(max(map(abs, one)) for one in asked) == pytest.approx(most)
+
+
 @pytest.mark.parametrize(("begin", "end"), [(0.0, 0.9), (0.9, 0.0), (0.5, 0.5)])
 def test_a_velocity_counts_from_when_it_comes(begin: float, end: float) -> None:
     """45°/s for so long turn by so much, whenever in a step they begin and end; by whole steps 0.8° more or less."""
