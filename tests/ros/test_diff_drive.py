@@ -10,6 +10,7 @@ import rclpy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
+from patience import PATIENCE
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParameters
 from sensor_msgs.msg import JointState
@@ -93,6 +94,16 @@ def test_a_drive_in_doubt_asks_two_motors_for_no_motion(
     seen = len(poses)
     bench.wait(lambda: len(poses) > seen + 100, "two seconds of them")
     assert not any(one.data for side in references for one in side) and poses[-1].pose.pose.position.x == 0.0
+
+
+@pytest.mark.parametrize(
+    "given", [("-p", "right:=left"), ("-p", "right:=/left"), ("-r", "right/motor/reference:=left/motor/reference")]
+)
+def test_a_drive_of_one_motor_is_none(start: Start, given: tuple[str, str]) -> None:
+    """It told that motor both wheels' speeds in turn, and said that it drove."""
+    process = start("motor_examples", "diff_drive", "--ros-args", *given)
+    _, said = process.communicate(timeout=PATIENCE)
+    assert process.returncode == 1 and "Both wheels would be the motor that is told on /left/motor/reference" in said
 
 
 def hear_both_wheels(node: DiffDrive) -> None:

@@ -35,6 +35,11 @@ class Motor:
         self._controllers: frozenset[Id] = frozenset()  # who publishes there
         self._asked: Client | None = None  # for the parameters of the one who does
 
+    @property
+    def topic(self) -> str:
+        """The topic on which it is told, as the graph knows it."""
+        return str(self._reference.topic_name)
+
     def refer(self, speed: float) -> None:
         """Ask for a speed [rad/s], forwards."""
         self._reference.publish(Float64(data=self.wheel.sign * speed))

@@ -29,6 +29,7 @@ from motor_ros.run import quick_executor, run
 
 LOOK_EVERY = 0.1  # [s] at who controls the wheels
 DOUBT = "{}: correct that, and start the drive again."
+SAME = "Both wheels would be the motor that is told on {}: give left and right the namespaces of two."
 NO_TF = "tf2_msgs is not installed here: no transforms on /tf; the pose is on odom."
 
 
@@ -44,6 +45,8 @@ class DiffDrive(Node):
         sides = ("left", "right")
         motors = [Motor(self, str(self._values[s]), bool(self._values[f"{s}_reversed"])) for s in sides]
         self._left, self._right = motors
+        if self._left.topic == self._right.topic:
+            raise MotorError(SAME.format(self._left.topic))
         self._frames = (str(self._values["odom_frame"]), str(self._values["base_frame"]))
         self._odometry = self.create_publisher(Odometry, "odom", qos.ODOMETRY)
         self._diagnostics = self.create_publisher(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
