@@ -45,7 +45,7 @@ class MotorControl(Node):
         self.create_service(Trigger, "motor/reset", lambda _, response: self._on_reset(response))
         self.create_service(Trigger, "motor/release", lambda _, response: self._on_release(response))
         steady_timer(self, WATCH_EVERY, self._on_watch)
-        steady_timer(self, LOOK_EVERY, lambda: self._settings.bar(self._neighbours.another_driven()))
+        steady_timer(self, LOOK_EVERY, lambda: self._settings.bar(self._neighbours.crossed()))
         steady_timer(self, 1.0, self._on_second)
         self.add_on_set_parameters_callback(self._on_parameters)
         self.get_logger().info(describe_start(self._settings.config))

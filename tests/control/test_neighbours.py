@@ -76,13 +76,27 @@ def test_a_plant_is_not_driven_by_what_another_one_does(bench: Bench, make: Make
     assert straight.another_driven() == ""
 
 
+def test_a_plant_is_not_told_of_by_another_one(bench: Bench, make: MakeNode) -> None:
+    for side in ("left", "right"):
+        be_plant(make("plant", side))
+    neighbours = Neighbours(make("one", "left", "motor/info:=/right/motor/info"))
+    bench.wait(lambda: neighbours.crossed() != "", "both plants")
+    assert neighbours.crossed() == (
+        "What the samples on /left/motor/speed mean is said on /right/motor/info by another plant, /right/plant, whose "
+        "own samples are on /right/motor/speed: see remappings and namespaces. The motor gets 0 V until then."
+    )
+    straight = Neighbours(make("other", "left"))
+    bench.wait(lambda: straight.missing() == "", "its plant")
+    assert straight.crossed() == ""
+
+
 def test_a_plant_may_be_two_nodes_and_others_may_listen(bench: Bench, make: MakeNode) -> None:
     neighbours = Neighbours(make("controller", "two"))
     be_plant(make("sensor", "two"), "motor/speed", "motor/info")
     be_plant(make("bridge", "two"), "motor/voltage")
     be_plant(make("recorder", "two"), "motor/voltage")
     bench.wait(lambda: neighbours.missing() == "", "the plant")
-    assert neighbours.another_driven() == ""
+    assert neighbours.crossed() == ""
 
 
 def test_a_simulation_may_follow_the_voltages_of_a_motor(bench: Bench, make: MakeNode) -> None:
@@ -91,7 +105,7 @@ def test_a_simulation_may_follow_the_voltages_of_a_motor(bench: Bench, make: Mak
     be_plant(make("motor_sim", "twin", "motor/voltage:=/wheel/motor/voltage"))
     both = {"/wheel/motor_driver", "/twin/motor_sim"}
     bench.wait(lambda: neighbours.hearers() == both and neighbours.missing() == "", "both")
-    assert neighbours.another_driven() == ""
+    assert neighbours.crossed() == ""
 
 
 def test_renamed_topics_are_counted_by_their_new_names(bench: Bench, make: MakeNode) -> None:
