@@ -20,6 +20,7 @@ from motor_model.errors import MotorError
 from motor_msgs.msg import MotorInfo, MotorSpeed
 from motor_ros import qos
 from motor_ros.clocks.steady_timer import steady_timer
+from motor_ros.graph.players import find_playing_caller
 from motor_ros.messages import info_of, sample_of
 from motor_ros.parameters import declare
 from motor_ros.run import quick_executor, run
@@ -82,6 +83,9 @@ class MotorControl(Node):
         self._state = self._demands.poll(self._settings.config, self._state)
 
     def _on_reset(self, response: Trigger.Response) -> Trigger.Response:
+        if played := find_playing_caller(self, "motor/reset"):
+            response.message = played
+            return response
         response.message, self._state = controller.reset(self._state, time.monotonic())
         response.success = not self._state.latched
         return response

@@ -17,6 +17,7 @@ from motor_ros.clocks.hold_ups import HoldUps
 from motor_ros.gate import AWAY, CONFLICT, OFF, STOPPED, Gate
 from motor_ros.graph.commanders import Commanders
 from motor_ros.graph.other_plant import OtherPlant
+from motor_ros.graph.players import find_playing_caller
 from motor_ros.graph.publishers import count_publishers
 from motor_ros.messages import diagnostic_message, info_message, speed_message, stamp_age
 from motor_ros.numbered_input import Arrival, NumberedInput
@@ -185,6 +186,8 @@ class Plant:
         self._changed()  # a stop that is due comes before what is asked for now
         now = time.monotonic_ns()
         refusal = (self.gate.refusal(now) or self._find_others(now) or self._refusal()) if request.data else ""
+        if request.data and not (refusal or (was_on and self.gate.begun)):  # not for who calls again and again
+            refusal = find_playing_caller(self._node, "motor/enable")
         self.gate = self.gate.call(now) if request.data else self.gate
         if request.data and was_on and not self.gate.enabled:
             refusal = f"Just now, {self.gate.stopped}: look, then call again."

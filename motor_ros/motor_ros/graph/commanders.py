@@ -6,12 +6,9 @@ from rclpy.node import Node
 
 from motor_ros.clocks.steady_timer import steady_timer
 from motor_ros.graph.acquaintances import Acquaintances, Verdict
+from motor_ros.graph.players import PLAYER, find_servers
 from motor_ros.graph.publishers import Publisher, list_publishers
 
-# How `ros2 bag play` calls its node, and what it serves under whatever name. A recording that it plays asks nobody, and
-# leaves a motor as it is at its end.
-PLAYER = "rosbag2_player"
-SERVED = "rosbag2_interfaces/srv/"
 LOOK_EVERY = 0.05  # [s]
 RECENT = 5_000_000  # [ns] a look that is older does not tell who has sent what comes now
 
@@ -48,5 +45,4 @@ class Commanders:
 
     def _find_players(self, there: list[Publisher]) -> set[str]:
         named = {one.node for one in there if one.node.rpartition("/")[2] == PLAYER}
-        services = self._node.get_service_names_and_types()
-        return named | {name.rpartition("/")[0] for name, kinds in services if any(SERVED in kind for kind in kinds)}
+        return named | find_servers(self._node)

@@ -8,11 +8,13 @@ import pytest
 import rclpy
 from bag_player import play
 from plant_rig import Rig
-from std_srvs.srv import SetBool
-from workbench import Bench
+from std_srvs.srv import SetBool, Trigger
+from workbench import DOMAIN, Bench
 
+from motor_control.node import MotorControl
 from motor_msgs.msg import MotorSpeed, MotorVoltage
 from motor_ros import qos
+from motor_ros.graph.players import _may_call, find_playing_caller
 from motor_ros.graph.publishers import UNKNOWN
 from motor_ros.messages import time_message, voltage_message
 
@@ -38,6 +40,47 @@ def test_voltages_of_a_recording_alone_are_no_command(bench: Bench) -> None:
     player.destroy_node()
     bench.wait(lambda: rig.sample() == 0.0 and not rig.plant._find_others(time.monotonic_ns()), "its end")
     rig.begin_again()
+
+
+@pytest.mark.parametrize(
+    ("name", "calls", "refused"),
+    [("rosbag2_player", True, True), ("rosbag2_player", False, False), ("hand", True, False)],
+)
+def test_a_request_of_a_recording_switches_nothing_on(bench: Bench, name: str, calls: bool, refused: bool) -> None:
+    """`ros2 bag play --publish-service-requests`; of who plays something else, such as a camera's, nothing is known."""
+    rig = ready(bench)
+    player = rclpy.create_node(name, context=bench._context)
+    if calls:
+        player.create_client(SetBool, "motor/enable")
+    bench.wait(lambda: _may_call(bench.node, f"/{name}", "/motor/enable") or not calls, "the client")
+    bench.wait(lambda: name in bench.node.get_node_names(), "the node")
+    assert rig.plant._on_enable(SetBool.Request(data=False), SetBool.Response()).success  # whoever asks for that
+    answer = rig.plant._on_enable(SetBool.Request(data=True), SetBool.Response())
+    assert answer.success is not refused and ("The output is on" in answer.message) is not refused
+    said = "The output stays off. /motor/enable would be called by what plays a recording (/rosbag2_player), which may"
+    assert answer.message.startswith(said) is refused
+    player.destroy_node()
+    bench.wait(lambda: not find_playing_caller(bench.node, "motor/enable"), "its end")
+    assert rig.plant._on_enable(SetBool.Request(data=True), SetBool.Response()).success
+
+
+def test_a_request_of_a_recording_resets_no_controller(bench: Bench) -> None:
+    rclpy.init(args=[], domain_id=int(DOMAIN))
+    node = MotorControl()
+    try:
+        node.doubt("there is something wrong")
+        player = rclpy.create_node("rosbag2_player", context=bench._context)
+        player.create_client(Trigger, "motor/reset")
+        bench.wait(lambda: find_playing_caller(node, "motor/reset") != "", "the player")
+        answer = node._on_reset(Trigger.Response())
+        assert not answer.success and "/motor/reset would be called by what plays" in answer.message
+        assert node._state.latched
+        player.destroy_node()
+        bench.wait(lambda: not find_playing_caller(node, "motor/reset"), "its end")
+        assert node._on_reset(Trigger.Response()).success and not node._state.latched
+    finally:
+        node.destroy_node()
+        rclpy.shutdown()
 
 
 def test_a_player_of_another_name_is_known_by_what_it_serves(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
