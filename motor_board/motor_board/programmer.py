@@ -1,9 +1,12 @@
 """Puts the firmware onto a real board: which port, which bootloader, what avrdude is told."""
 
+import fcntl
 import glob
 import os
 import shutil
 import subprocess
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -64,15 +67,40 @@ def command(elf: Path, port: str, board: str) -> list[str]:
     return ["avrdude", "-q", *(word for pair in told.items() for word in pair), "-D", "-U", f"flash:w:{elf}:e"]
 
 
+@contextmanager
+def _alone(port: str) -> Iterator[None]:
+    """Keep a port from every driver, as drivers do from each other; avrdude itself neither asks nor keeps anybody out.
+
+    Raises:
+        BoardError: somebody has it, or it cannot be opened.
+    """
+    try:
+        opened = os.open(port, os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK)
+    except OSError as error:
+        raise BoardError(f"{port} cannot be opened ({error.strerror}): see who has it (fuser -v {port}).") from error
+    try:
+        fcntl.flock(opened, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        yield
+    except BlockingIOError as error:
+        raise BoardError(
+            f"{port} is in use, as by a driver, whose commands would get in between: end that (fuser -v {port} names "
+            "it), then flash."
+        ) from error
+    finally:
+        os.close(opened)
+
+
 def flash(elf: Path, port: str, board: str) -> None:
     """Run avrdude, with its output to the terminal.
 
     Raises:
-        BoardError: it is missing or could not flash.
+        BoardError: it is missing or could not flash, or a driver has the port.
     """
     if shutil.which("avrdude") is None:
         raise BoardError("avrdude is not installed: sudo apt install avrdude")
-    if subprocess.run(command(elf, port, board)).returncode != 0:
+    with _alone(port):
+        done = subprocess.run(command(elf, port, board))
+    if done.returncode != 0:
         raise BoardError(
             f"avrdude could not flash {port} (see above): stop what has it open; for a Nano, try --board nano-old."
         )

@@ -1,6 +1,8 @@
 """Flashing: which port, what avrdude is told, and what is said where something is missing."""
 
+import fcntl
 import shutil
+import sys
 from pathlib import Path
 
 import pytest
@@ -66,6 +68,28 @@ def test_a_port_without_permission_names_dialout(plugged: Path, monkeypatch: pyt
     monkeypatch.setattr("os.access", lambda path, mode: False)
     with pytest.raises(BoardError, match="no permission for .*ttyACM0: run 'sudo usermod -aG dialout"):
         programmer.the_port(f"{plugged}/ttyACM0")
+
+
+def test_a_port_that_a_driver_has_is_not_flashed(plugged: Path) -> None:
+    """The driver would go on asking the board, which is a bootloader then, and avrdude would write what it hears."""
+    board, after = plugged / "ttyACM0", plugged / "arguments"
+    with board.open("r+b") as held:
+        fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)  # as pyserial's `exclusive`
+        with pytest.raises(BoardError, match="ttyACM0 is in use, as by a driver, .*ttyACM0 names it"):
+            programmer.flash(Path("x.elf"), str(board), "uno")
+        assert not after.exists()
+    programmer.flash(Path("x.elf"), str(board), "uno")
+    assert after.exists()
+    with pytest.raises(BoardError, match="nowhere cannot be opened"):
+        programmer.flash(Path("x.elf"), f"{plugged}/nowhere", "uno")
+
+
+def test_no_driver_gets_a_port_while_it_is_flashed(plugged: Path) -> None:
+    (plugged / "bin" / "avrdude").write_text(
+        f"#!/bin/sh\nexec {sys.executable} -c 'import fcntl; fcntl.flock(open(\"{plugged}/ttyACM0\"), 6)'\n"
+    )
+    with pytest.raises(BoardError, match="avrdude could not flash"):
+        programmer.flash(Path("x.elf"), f"{plugged}/ttyACM0", "uno")
 
 
 def test_an_avrdude_that_fails_or_is_missing_is_one_sentence(plugged: Path, capsys: Capture) -> None:
