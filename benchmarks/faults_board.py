@@ -13,6 +13,7 @@ from faults_supply import lose_board_supply, lose_hub, lose_motor_supply
 
 from motor_board.emulation.chip import Hang
 from motor_board.emulation.edges import Edges, Line
+from motor_board.emulation.wiring import Wiring
 from motor_model.effects import INDEX
 
 
@@ -101,6 +102,11 @@ def exchange_channels(loop: BoardLoop) -> None:
     loop.emulator.shaft.plan = other  # type: ignore[method-assign]
 
 
+def lose_channel(loop: BoardLoop) -> None:
+    """B's wire is off, and its pull-up holds it."""
+    loop.emulator.wiring = Wiring(b_connected=False)
+
+
 def hold_back(loop: BoardLoop) -> None:
     """The link loses nothing, and is late by half of the time since then, up to 1 s, either way."""
     loop.holds_back = loop.time
@@ -138,9 +144,11 @@ BOARD_FAULTS = (
     BoardFault("encoder's cable off", MOTION, cable_off()),
     BoardFault("cable off, 50 stray edges a second", MOTION, cable_off(50.0)),
     BoardFault("two channels exchanged", MOTION, exchange_channels, channels=2),
+    BoardFault("one of two channels off", MOTION, lose_channel, channels=2),
     BoardFault("plain voltage, shaft blocked", MOTION, block, raw=0.6),
     BoardFault("plain voltage, encoder's cable off", MOTION, cable_off(), raw=0.6),
     BoardFault("plain voltage, two channels exchanged", MOTION, exchange_channels, channels=2, raw=0.6),
+    BoardFault("plain voltage, one of two channels off", MOTION, lose_channel, channels=2, raw=0.6),
 )
 
 

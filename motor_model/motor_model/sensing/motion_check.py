@@ -10,7 +10,8 @@ voltage where the supply is measured and off, and no edge comes: whoever switche
 switch that stops the motor, does not expect it to go on by itself.
 
 What a voltage that is never strong for long does to a motor that does not turn is in `heating.py`; what two channels
-show of one that turns the wrong way without becoming slower, in `against_voltage.py`.
+show of one that turns the wrong way without becoming slower, in `against_voltage.py`; and of one whose other channel
+is lost, in `to_and_fro.py`.
 """
 
 from dataclasses import dataclass
@@ -20,6 +21,7 @@ from motor_model.sample import Sample
 from motor_model.sensing.against_voltage import AgainstVoltage
 from motor_model.sensing.heating import Heating
 from motor_model.sensing.supply import find_least_supply
+from motor_model.sensing.to_and_fro import ToAndFro
 
 DRIVEN = 0.25  # of the motor's voltage: turns any motor that is meant for it
 STRONG = 0.5  # of the motor's voltage: twice what any motor needs to break away, so that no slow ramp comes that far
@@ -46,6 +48,11 @@ HEATED = (
 )
 AGAINST = "the motor turns against its voltage: swap the motor's two wires, or the encoder's two channels"
 
+NOWHERE = (
+    "edges are counted to and fro at {voltage:.1f} V, and lead nowhere: one of the encoder's two channels is off, or "
+    "something holds the shaft"
+)
+
 
 @dataclass(frozen=True)
 class MotionCheck:
@@ -62,6 +69,7 @@ class MotionCheck:
     strong_since: int = 0  # [ns] driven strongly in this direction since
     heating: Heating = Heating()
     against: AgainstVoltage = AgainstVoltage()
+    to_and_fro: ToAndFro = ToAndFro()  # while it is driven strongly one way
     unsupplied: int = 0  # [ns] a voltage is wanted, without a supply and without an edge, since
     even: bool = False  # the latest edge came hardly later than the one before had
 
@@ -87,6 +95,7 @@ class MotionCheck:
             strong_since=now if anew else self.strong_since,
             heating=self.heating.see(share, dt, edge, self.stall_time),
             against=self.against.see(sample, before, share, STRONG if strong else 0.0, 0 if anew else strong),
+            to_and_fro=self.to_and_fro.see(sample, anew or strong == 0),
             unsupplied=self.unsupplied if waits else now,
             even=self._is_even(sample) if moved else self.even,
         )
@@ -116,6 +125,8 @@ class MotionCheck:
             return HEATED.format(voltage=excess[0] * self.max_voltage, time=excess[1])
         if strong_since is None:
             return ""
+        if not self.single_channel and self.to_and_fro.lasts(sample.sample_time, self.stall_time):
+            return NOWHERE.format(voltage=sample.voltage)
         stalled = sample.sample_time - max(self.still, strong_since) >= most
         return self._no_edges(sample) if stalled else ""
 

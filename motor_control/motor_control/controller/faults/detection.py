@@ -16,7 +16,7 @@ from motor_control.controller.faults import (
     stall,
     unexpected_edges,
 )
-from motor_control.controller.faults.direction import implied_load, plugging, pulses, runaway
+from motor_control.controller.faults.direction import implied_load, plugging, pulses, runaway, to_and_fro
 from motor_control.controller.faults.evidence import Config, Seen
 
 
@@ -40,6 +40,7 @@ class State:
     hums: hum.State = hum.State()
     repeated: repetition.State = repetition.State()
     gaining: acceleration.State = acceleration.State()
+    trembling: to_and_fro.State = to_and_fro.State()
 
 
 def begin(speed: float, before: State | None = None) -> State:
@@ -74,8 +75,10 @@ def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     humming, hums = hum.check(config, state.hums, seen)
     again, repeated = repetition.check(config, state.repeated, seen)
     quick, gaining = acceleration.check(config, state.gaining, seen)
+    nowhere, trembling = to_and_fro.check(config, state.trembling, seen)
     found = (
         quick,
+        nowhere,
         still,
         few,
         irregular,
@@ -109,4 +112,5 @@ def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
         hums,
         repeated,
         gaining,
+        trembling,
     )
