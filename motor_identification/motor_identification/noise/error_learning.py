@@ -20,6 +20,7 @@ from motor_identification.recording import Floats
 SHARES = (1e-4, 0.2)  # of a slot: how irregular a disc may be, or the four flanks of two channels
 SPEED_SHARES = (0.03, 10.0)  # of what is known of a logged speed's noise: how much more of it there may be
 TIMES = (0.3, 30.0)  # of the median interval, and of the motor's time constant: correlation times that are looked for
+LONGEST_SHARE = 0.25  # of the longest run: what changes from run to run only is no torque that was seen to be random
 LIKELIHOOD_TOLERANCE = 0.3  # [nat] that a search ends at
 PRICE = 6.0  # [nat] that a disturbance has to be worth, so that a perfect encoder's residual is called just that
 
@@ -42,12 +43,14 @@ class _Scale:
 
     step: float  # [s] the median interval
     gap: float  # [rad/s] RMS of what is left
+    length: float  # [s] of the longest run
     lag: Lag  # the motor
 
     @property
     def times(self) -> tuple[float, float]:
         """Bound the correlation times [s] that are looked for."""
-        return TIMES[0] * self.step, max(TIMES[1] / self.lag.rate, 10.0 * self.step)
+        longest = min(TIMES[1] / self.lag.rate, LONGEST_SHARE * self.length)
+        return TIMES[0] * self.step, max(longest, 10.0 * self.step)
 
     def strength(self, time: float) -> float:
         """Compute the RMS [V] of a torque with a correlation time [s] that would leave all of it."""
@@ -105,7 +108,7 @@ def _measure_scale(rows: Sequence[ErrorData], lag: Lag) -> _Scale:
     duration = np.concatenate([row.duration[~row.still] for row in rows])
     speeds = np.concatenate([(row.increments / row.duration)[~row.still] for row in rows])
     gap = sqrt(float(duration @ speeds**2 / duration.sum())) + 1e-300
-    return _Scale(float(np.median(duration)), gap, lag)
+    return _Scale(float(np.median(duration)), gap, max(float(row.duration.sum()) for row in rows), lag)
 
 
 def _list_starts(quiet: float, least: float, scale: _Scale) -> list[Floats]:

@@ -121,3 +121,25 @@ def test_a_share_that_was_far_off_does_not_hide_the_right_correlation_time(monke
     monkeypatch.setattr(error_learning, "log_likelihood", log_likelihood_of_two_summits)
     model = learn_error_model(rows, LAG)
     assert model.share == pytest.approx(far, rel=0.05) and model.correlation_time == pytest.approx(slow, rel=0.1)
+
+
+@pytest.mark.parametrize("share", [error_learning.LONGEST_SHARE, 10.0])
+def test_what_stays_for_all_of_a_run_is_no_torque_that_was_seen_to_be_random(
+    share: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Ten runs of another constant load each: such a torque did what friction does, in runs at levels of their own."""
+    rows = []
+    for load in 0.1 * np.random.default_rng(6).standard_normal(10):
+        drive = profiles.random(12.0, 1.0, 5)
+        recording, _truth = record({"kv": KV, "ka": KA, "bias_voltage": float(load)}, *drive, seed=5)
+        problem = make_problem([check(recording)], ())
+        theta = np.array(
+            [np.log(x) if spec.logarithmic else x for x, spec in zip((KV, KA), problem.unknowns.specs, strict=True)]
+        )
+        estimate = correct_directions(Estimate(problem, theta))
+        rows += [make_error_data(*row) for row in zip(estimate.problem.intervals, estimate.increments, strict=True)]
+    monkeypatch.setattr(error_learning, "LONGEST_SHARE", share)
+    length = max(float(row.duration.sum()) for row in rows)
+    found = learn_error_model(rows, LAG)
+    assert found.rms_voltage > 0.01
+    assert (found.correlation_time <= 0.2501 * length) is (share < 1.0)

@@ -65,12 +65,19 @@ def _list_weak(selection: Selection, settled: set[tuple[frozenset[str], str]]) -
 
 
 def _eliminate_unless_seen(smaller: Selection, reporter: ProgressReporter) -> Selection:
-    """Eliminate what is not needed any more; not what leaves a far larger gap, in which something can be predicted."""
+    """Eliminate what is not needed any more; not what leaves a far larger gap, in which something can be predicted.
+
+    Nor what is unlikely to be absent together: a slow torque does in turn for each what it does not for all of them.
+    """
     if not smaller.steps:
         return smaller
     rest = eliminate_backward(smaller, reporter)
     seen = predicts_far_worse(rest.model.held.gap, smaller.model.held.gap) and not rest.model.complete
-    return smaller if seen else rest
+    lost = len(smaller.steps) - len(rest.steps)
+    unlikely = smaller.model.beside_torque and (
+        smaller.model.likelihood - rest.model.likelihood > lost * likelihood_threshold()
+    )
+    return smaller if seen or (lost > 0 and unlikely) else rest
 
 
 def is_needed(step: SelectionStep, model: Model, without: Model) -> bool:

@@ -32,6 +32,7 @@ from motor_identification.diagnosis.selection.selection import Selection, Select
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.parameter_space import map_theta
+from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter
 from motor_identification.recording import check
 from motor_identification.uncertainty.standard_errors import Uncertainty, estimate_uncertainty
@@ -496,3 +497,20 @@ def test_a_single_step_says_what_may_be_missing_and_no_size() -> None:
     assert found.verdict is Verdict.UNDECIDED
     for finding in found.findings:
         assert any(np.isfinite(sigma) for _, sigma in finding.parameters.values())
+
+
+@pytest.mark.parametrize(("each", "beside", "kept"), [(1.01, True, True), (0.99, True, False), (1.01, False, False)])
+def test_what_a_slow_torque_does_in_turn_for_each_stays_where_it_does_not_for_all(
+    monkeypatch: pytest.MonkeyPatch, each: float, beside: bool, kept: bool
+) -> None:
+    """Friction and asymmetry of ten runs at levels of their own: neither was missed alone, both were by 18."""
+    plain, one = stub_model(2.0, 0.0), stub_model(1.5, 0.0, 9.0)
+    both = stub_model(1.4, 0.0, 2.0 * each * likelihood_threshold())
+    if beside:
+        both = replace(both, learned=ErrorModel(0.1, 0.0, 0.1, 1.0))
+    steps = found_step(plain, one, "coulomb_friction"), found_step(one, both, "direction_asymmetry")
+    smaller = Selection(steps, both, fitted()[1], 1)
+    rest = replace(smaller, steps=(), model=plain)
+    monkeypatch.setattr(determination, "eliminate_backward", lambda *_: rest)
+    monkeypatch.setattr(determination, "predicts_far_worse", lambda *_: False)
+    assert determination._eliminate_unless_seen(smaller, SILENT) is (smaller if kept else rest)
