@@ -17,7 +17,7 @@ from motor_identification.diagnosis.evidence.line_evidence import (
 )
 from motor_identification.diagnosis.fits.effect_fit import fit_with_effect
 from motor_identification.estimation.estimate import Estimate
-from motor_identification.measurement.command_swing import is_sweep
+from motor_identification.measurement.command_swing import has_one_size, is_sweep
 from motor_identification.periodic.periodic_fit import LOAD_OVER_ANGLE, add_load_once_a_turn
 from motor_identification.validation.held_out import HeldOut
 from motor_identification.validation.hold_out import HoldOut
@@ -42,7 +42,8 @@ def list_candidates(effects: Sequence[str], judged: HeldOut | None = None, besid
     happens once in each of several recordings; and in a single response nothing that happens once or repeats with the
     angle: some instants, or some line, are found in any. Where a command's frequency goes one way, nothing that comes
     slowly: whatever depends on frequency does. Where values have white noise and nothing is counted, as a
-    tachogenerator's, there is no disc for anything to be on; and where rows of speeds are uneven it does not show.
+    tachogenerator's, there is no disc for anything to be on; and where rows of speeds are uneven it does not show. What
+    voltage a motor breaks away at is not seen under one voltage, at which it does.
     """
     return [
         effect.name
@@ -56,6 +57,8 @@ def list_candidates(effects: Sequence[str], judged: HeldOut | None = None, besid
 
 def _can_be_judged(effect: Effect, judged: HeldOut, beside_torque: bool) -> bool:
     if effect.on_disc and not any(data.tells_of_disc for data in judged.intervals):
+        return False
+    if effect.holds and effect.implies is not None and has_one_size(judged.recordings):
         return False
     if comes_slowly(effect.name) and judged.recordings and all(map(is_sweep, judged.recordings)):
         return False

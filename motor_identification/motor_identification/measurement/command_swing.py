@@ -12,6 +12,7 @@ LEVELS = 5  # up to the largest voltage; what a controller does around a speed i
 RESPONSE = 0.1  # of the largest voltage, between two levels that a motor answers plainly
 LEAST_HALVES = 8  # of a wave, between two reversals of a sweep
 SWEPT, IN_ORDER = 1.5, 0.9  # times its frequency from end to end; rank correlation of its half waves with their order
+PASSED = 0.01  # of the samples, at voltages between those of a command that has one size
 LEVEL_SHARE = 0.05  # of the samples, at a level where a recording stays; what it passes on the way is none
 
 
@@ -34,6 +35,14 @@ def count_levels(recordings: Sequence[Recording]) -> int:
     volts = np.concatenate([recording.voltage for recording in recordings])
     levels, counts = np.unique(np.rint(LEVELS * volts / np.abs(volts).max()), return_counts=True)
     return int(np.count_nonzero((levels != 0.0) & (counts >= LEVEL_SHARE * len(volts))))
+
+
+def has_one_size(recordings: Sequence[Recording]) -> bool:
+    """Decide whether commands of one motor are 0 V or of one size, whichever way, but for what they pass on the way."""
+    volts = np.concatenate([np.abs(recording.voltage) for recording in recordings] or [np.zeros(0)])
+    share = volts / max(float(volts.max(initial=0.0)), np.finfo(float).tiny)
+    between = (share > RESPONSE) & (share < 1.0 - PLAY)
+    return len(volts) > 0 and bool(np.count_nonzero(between) < PASSED * len(volts))
 
 
 def count_responses(recordings: Sequence[Recording]) -> int:

@@ -48,9 +48,8 @@ class _Scale:
 
     @property
     def times(self) -> tuple[float, float]:
-        """Bound the correlation times [s] that are looked for."""
-        longest = min(TIMES[1] / self.lag.rate, LONGEST_SHARE * self.length)
-        return TIMES[0] * self.step, max(longest, 10.0 * self.step)
+        """Span the correlation times [s] that a search begins at."""
+        return TIMES[0] * self.step, max(TIMES[1] / self.lag.rate, 10.0 * self.step)
 
     def strength(self, time: float) -> float:
         """Compute the RMS [V] of a torque with a correlation time [s] that would leave all of it."""
@@ -60,6 +59,7 @@ class _Scale:
     def bound(self, shares: tuple[float, float]) -> _Box:
         """Bound what is looked for."""
         (shortest, longest), rate, ka = self.times, self.lag.rate, self.lag.ka
+        longest = min(longest, max(LONGEST_SHARE * self.length, 10.0 * self.step))
         return _Box(
             np.log([shares[0], 1e-6 * self.gap * rate * ka, shortest]),
             np.log([shares[1], 1e3 * self.gap * (rate + 1.0 / self.step) * ka, longest]),

@@ -70,6 +70,11 @@ def test_candidates_are_what_a_model_lacks_and_can_have() -> None:
     assert list_candidates((), replace(swept, recordings=(*swept.recordings, *one.recordings))) == names
     sliding = list_candidates(("coulomb_friction",))
     assert "static_friction" in sliding and "coulomb_friction" not in sliding
+    steps = replace(one.recordings[0], voltage=np.where(one.recordings[0].voltage > 0.0, 9.6, 0.0))
+    for recording, told in ((one.recordings[0], True), (steps, False)):  # at which of one voltage it breaks away
+        assert (
+            "static_friction" in list_candidates(("coulomb_friction",), replace(one, recordings=(recording,)))
+        ) is told
 
 
 def test_the_most_likely_is_the_finding_not_the_most_relevant() -> None:

@@ -13,6 +13,7 @@ from motor_identification.measurement.command_swing import (
     SWEPT,
     count_levels,
     count_responses,
+    has_one_size,
     is_sweep,
     measure_swings,
 )
@@ -105,3 +106,25 @@ def test_few_steps_random_ones_and_none_are_no_sweep() -> None:
     lengths = np.random.default_rng(2).integers(10, 100, 60)
     assert not is_sweep(driven(*(np.full(n, 8.0 * (-1.0) ** k) for k, n in enumerate(lengths))))
     assert not is_sweep(driven(np.zeros(100))) and not is_sweep(driven(np.full(100, 8.0)))
+
+
+@pytest.mark.parametrize(
+    ("volts", "one"),
+    [
+        ([0.0] * 50 + [9.6] * 50, True),
+        ([0.0] * 50 + [9.6] * 40 + [9.2] * 10, True),  # as a supply sags
+        ([-9.6] * 50 + [9.6] * 49 + [0.0], True),
+        ([0.0] * 50 + [9.6] * 48 + [5.0] * 2, False),
+        ([0.0] * 50 + [3.14] * 25 + [3.53] * 25, False),
+    ],
+)
+def test_a_command_of_one_size_has_none_between(volts: list[float], one: bool) -> None:
+    driven, _ = record({"kv": 0.07, "ka": 0.006}, 0.005 * np.arange(len(volts)), np.array(volts), seed=1, name="driven")
+    assert has_one_size([check(driven)]) is one
+    assert not has_one_size([])
+
+
+def test_what_a_command_passes_on_the_way_is_no_size() -> None:
+    volts = np.array([0.0] * 150 + [4.8] + [9.6] * 150)
+    driven, _ = record({"kv": 0.07, "ka": 0.006}, 0.005 * np.arange(len(volts)), volts, seed=1, name="driven")
+    assert has_one_size([check(driven)])
