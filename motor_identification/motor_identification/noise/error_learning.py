@@ -8,7 +8,7 @@ anything can be called significant.
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
-from math import sqrt
+from math import inf, sqrt
 
 import numpy as np
 from scipy.optimize import OptimizeResult, minimize
@@ -20,7 +20,7 @@ from motor_identification.recording import Floats
 SHARES = (1e-4, 0.2)  # of a slot: how irregular a disc may be, or the four flanks of two channels
 SPEED_SHARES = (0.03, 10.0)  # of what is known of a logged speed's noise: how much more of it there may be
 TIMES = (0.3, 30.0)  # of the median interval, and of the motor's time constant: correlation times that are looked for
-LONGEST_SHARE = 0.25  # of the longest run: what changes from run to run only is no torque that was seen to be random
+LONGEST_SHARE = 0.25  # of a usual run of several: what differs from run to run only was not seen to change
 LIKELIHOOD_TOLERANCE = 0.3  # [nat] that a search ends at
 PRICE = 6.0  # [nat] that a disturbance has to be worth, so that a perfect encoder's residual is called just that
 
@@ -43,7 +43,7 @@ class _Scale:
 
     step: float  # [s] the median interval
     gap: float  # [rad/s] RMS of what is left
-    length: float  # [s] of the longest run
+    run: float  # [s] the usual length of several runs; infinite of a single one
     lag: Lag  # the motor
 
     @property
@@ -59,7 +59,7 @@ class _Scale:
     def bound(self, shares: tuple[float, float]) -> _Box:
         """Bound what is looked for."""
         (shortest, longest), rate, ka = self.times, self.lag.rate, self.lag.ka
-        longest = min(longest, max(LONGEST_SHARE * self.length, 10.0 * self.step))
+        longest = min(longest, max(LONGEST_SHARE * self.run, 10.0 * self.step))
         return _Box(
             np.log([shares[0], 1e-6 * self.gap * rate * ka, shortest]),
             np.log([shares[1], 1e3 * self.gap * (rate + 1.0 / self.step) * ka, longest]),
@@ -108,7 +108,8 @@ def _measure_scale(rows: Sequence[ErrorData], lag: Lag) -> _Scale:
     duration = np.concatenate([row.duration[~row.still] for row in rows])
     speeds = np.concatenate([(row.increments / row.duration)[~row.still] for row in rows])
     gap = sqrt(float(duration @ speeds**2 / duration.sum())) + 1e-300
-    return _Scale(float(np.median(duration)), gap, max(float(row.duration.sum()) for row in rows), lag)
+    run = float(np.median([row.duration.sum() for row in rows])) if len(rows) > 1 else inf
+    return _Scale(float(np.median(duration)), gap, run, lag)
 
 
 def _list_starts(quiet: float, least: float, scale: _Scale) -> list[Floats]:

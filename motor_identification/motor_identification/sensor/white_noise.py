@@ -39,7 +39,8 @@ def estimate_white_noise(values: Floats, voltage: Floats) -> float:
 def estimate_relative_noise(values: Floats) -> float:
     """Estimate the standard deviation of white noise in evenly spaced values (K,) as a share of each value.
 
-    0 where too few follow each other that are of one sign and more than next to nothing.
+    0 where too few follow each other that are of one sign and more than next to nothing. Of a motor that answers jumps
+    of its voltage within a few values, its motion counts as noise, as far as most of them show it.
     """
     found, least = [], LEAST_SHARE * sqrt(float(np.mean(values**2))) if len(values) else 0.0
     for order in ORDERS:

@@ -7,6 +7,8 @@ would have decide alone: Student's t with four degrees of freedom (K. L. Lange, 
 Robust statistical modeling using the t distribution, JASA 84, 1989), fitted by reweighting.
 """
 
+from math import inf
+
 import numpy as np
 
 from motor_identification.recording import Floats
@@ -18,10 +20,15 @@ LEAST_SCALE = 1e-12  # of the errors' size: below it they are none
 
 
 def measure_log_likelihood(errors: Floats, speed: Floats) -> float:
-    """Measure the log likelihood of errors (K,) [rad/s] at speeds (K,) [rad/s], but for constants of K."""
+    """Measure the log likelihood of errors (K,) [rad/s] at speeds (K,) [rad/s], but for constants of K.
+
+    Minus infinity of fewer than two, or where one is no number: nothing is told by such.
+    """
+    if len(errors) < 2 or not (np.isfinite(errors).all() and np.isfinite(speed).all()):
+        return -inf
     usual = float(np.median(np.abs(speed))) or 1.0
     scales = (np.hypot(1.0, growth * speed / usual) for growth in GROWTHS)
-    return max(_measure_alike(errors / scale) - float(np.sum(np.log(scale))) for scale in scales)
+    return max(_measure_alike(errors / scale) - float(np.sum(np.log(scale[1:]))) for scale in scales)
 
 
 def _measure_alike(errors: Floats) -> float:

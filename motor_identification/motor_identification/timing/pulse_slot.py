@@ -10,6 +10,7 @@ ticks as there are.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from math import inf, isfinite
 
 import numpy as np
 
@@ -49,8 +50,8 @@ class SlotGain:
 
 
 def find_shown_slot(recordings: Sequence[Recording]) -> float:
-    """Find the slot [rad] that values themselves show: by how long they stay, or fall between edges; 0 where none."""
-    return find_stays_slot(recordings) or find_decay_slot(recordings)
+    """Find the slot [rad] that values themselves show: by how they fall between edges, or how long they stay; 0."""
+    return find_decay_slot(recordings) or find_stays_slot(recordings)
 
 
 def find_stays_slot(recordings: Sequence[Recording]) -> float:
@@ -134,10 +135,14 @@ def judge_slot(shaper: Shaper, timing: Timing, other: Timing, plain: ShapedFit, 
 
 
 def measure_gain_of_speeds(before: ShapedFit, after: ShapedFit) -> float:
-    """Measure how much likelier one fit's speeds are than another's of the same rows, where a motor moved."""
+    """Measure how much likelier one fit's speeds are than another's of the same rows, where a motor moved.
+
+    Minus infinity where there are too few, or some are no numbers.
+    """
     old, new = _list_errors(before), _list_errors(after)
     count = min(old.shape[1], new.shape[1])  # at the beginning a row may have no whole window
-    return measure_log_likelihood(*new[:, -count:]) - measure_log_likelihood(*old[:, -count:])
+    one, other = (measure_log_likelihood(*some[:, some.shape[1] - count :]) for some in (old, new))
+    return other - one if isfinite(one) else -inf
 
 
 def _list_errors(fitted: ShapedFit) -> Floats:

@@ -51,3 +51,13 @@ def test_what_an_error_shares_with_the_one_before_is_no_news() -> None:
 def test_no_errors_are_likelier_than_any_and_a_number() -> None:
     none = measure_log_likelihood(np.zeros(100), SPEED[:100])
     assert np.isfinite(none) and none > measure_log_likelihood(1e-9 * SPEED[:100], SPEED[:100])
+
+
+def test_what_is_no_number_or_alone_tells_nothing() -> None:
+    errors = RANDOM.standard_normal(100)
+    for bad in (np.nan, np.inf):
+        assert measure_log_likelihood(np.append(errors, bad), SPEED[:101]) == -np.inf
+        assert measure_log_likelihood(errors, np.append(SPEED[:99], bad)) == -np.inf
+    for few in (0, 1):
+        assert measure_log_likelihood(errors[:few], SPEED[:few]) == -np.inf
+    assert measure_log_likelihood(errors[:2], SPEED[:2]) > -np.inf

@@ -203,9 +203,10 @@ def test_the_slot_that_falling_values_tell_is_taken(monkeypatch: pytest.MonkeyPa
     recording = check(as_period_speed(recorded(edges=12, sample_rate=200.0), falls=True))
     slot = 2.0 * np.pi / 12
     assert find_decay_slot([recording]) == pytest.approx(slot, rel=1e-4)
-    monkeypatch.setattr(pulse_slot, "find_slot_by_stays", lambda *_: 0.0)
+    assert find_stays_slot([recording]) != find_decay_slot([recording])
     monkeypatch.setattr(speed_timing, "_find_periods", lambda *_: None)
     assert timing_of(recording).slot == find_decay_slot([recording])
+    monkeypatch.setattr(pulse_slot, "find_slot_by_stays", lambda *_: 0.0)
     monkeypatch.setattr(pulse_slot, "find_slot_by_decays", lambda *_: 0.0)
     assert timing_of(recording).slot == 0.0
 
@@ -324,3 +325,11 @@ def test_voltages_held_until_rows_only_where_the_motion_is_early_for_sure(
     monkeypatch.setattr(Shaper, "fit", lambda self, timing: fits[timing.is_early])
     monkeypatch.setattr(speed_timing, "measure_gain_of_speeds", lambda _, after: gain if after is fits[True] else 0.0)
     assert speed_timing._choose_instants(shaper, 0.1).is_early is held_until
+
+
+def test_errors_that_are_no_numbers_make_no_slot_likelier(monkeypatch: pytest.MonkeyPatch) -> None:
+    shaper = shaper_of(logged(48))
+    fit = shaper.fit(OTHERS[0])
+    assert pulse_slot.measure_gain_of_speeds(fit, fit) == 0.0
+    monkeypatch.setattr(pulse_slot, "measure_log_likelihood", lambda *_: -np.inf)
+    assert pulse_slot.measure_gain_of_speeds(fit, fit) == -np.inf

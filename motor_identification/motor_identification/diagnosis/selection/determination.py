@@ -74,9 +74,8 @@ def _eliminate_unless_seen(smaller: Selection, reporter: ProgressReporter) -> Se
     rest = eliminate_backward(smaller, reporter)
     seen = predicts_far_worse(rest.model.held.gap, smaller.model.held.gap) and not rest.model.complete
     lost = len(smaller.steps) - len(rest.steps)
-    unlikely = smaller.model.beside_torque and (
-        smaller.model.likelihood - rest.model.likelihood > lost * likelihood_threshold()
-    )
+    beside = rest.outside is None and smaller.model.beside_torque and rest.model.beside_torque
+    unlikely = beside and smaller.model.likelihood - rest.model.likelihood > lost * likelihood_threshold()
     return smaller if seen or (lost > 0 and unlikely) else rest
 
 

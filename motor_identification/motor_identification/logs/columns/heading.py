@@ -20,6 +20,7 @@ from motor_identification.logs.columns.vocabulary import (
     Quantity,
     words_of,
 )
+from motor_identification.logs.form import TIME_UNITS
 
 _BRACKETS = re.compile(r"[\[({<]([^\])}>]*)[\])}>]")
 _VOLTS_AT_THE_END = re.compile(r"[^\W_][\s_]V$")  # `left_v` is a velocity
@@ -73,8 +74,10 @@ def _tell_by_field(name: str, quantity: Quantity | None) -> Quantity | None:
     field = read_heading(find_field(name)) if find_field(name) else None
     if field is None or quantity in _OF_WHOLE_STRUCTS or not set(field.words) - _ANY_FIELD:
         return quantity
-    if quantity is Quantity.TIME:  # `samplingT1.speed`; what is called a time of its own is one
-        return field.quantity
+    if quantity is Quantity.TIME and not field.quantity:  # `d.samplingT1.th` is none; `time.s` and `stamp.nanosec` are
+        return quantity if field.unit in TIME_UNITS or name.count(".") == 1 else None
+    if (quantity, field.quantity) == (Quantity.VOLTAGE, Quantity.DUTY):  # `voltage.command`
+        return quantity
     return field.quantity or quantity
 
 

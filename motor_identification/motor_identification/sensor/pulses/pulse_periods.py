@@ -37,6 +37,7 @@ SAME_DECAY, AROUND, BEYOND_CHANCE, OF_ALL_FALLS, MANY_DECAYS = 0.002, 0.1, 5.0, 
 # Such pairs, at least. Measured: of 30 logs that fall 13 have them, all with the true slot to 1e-4; none of 400 logs of
 # other sensors, nor of 226 of real motors.
 FEWEST_DECAYS = 6
+CANDIDATES = 3  # such slots that are looked at: of counts in rows of uneven lengths there are dozens, and none is one
 GRID = 1.02  # from one slot that is tried to the next
 ALIKE = 0.98  # of the best score: slots that explain the values as well
 LONGEST = 200.0  # rows that a slot takes at nearly the fastest speed, at most
@@ -70,16 +71,20 @@ def find_slot_by_decays(time: Floats, speed: Floats) -> float:
     falls = np.flatnonzero((speed[1:] * speed[:-1] > 0.0) & (size[1:] < size[:-1]))
     if len(falls) < FEWEST_DECAYS or find_lattice(speed) > 0.0:
         return 0.0
-    slots = np.sort(np.log(rows[falls] / (1.0 / size[1:][falls] - 1.0 / size[:-1][falls])))
+    grown = 1.0 / size[1:][falls] - 1.0 / size[:-1][falls]
+    slots = np.sort(np.log(rows[falls][grown > 0.0] / grown[grown > 0.0]))
     alike, around = (_count_within(slots, width) for width in (SAME_DECAY, AROUND))
     likely = alike >= np.maximum(
         max(FEWEST_DECAYS, min(OF_ALL_FALLS * len(slots), MANY_DECAYS)), BEYOND_CHANCE * SAME_DECAY / AROUND * around
     )
-    while likely.any():
+    likely &= slots <= np.log(LONGEST_SLOT)
+    for _ in range(CANDIDATES):
+        if not likely.any():
+            break
         most = np.argmax(np.where(likely, alike, 0))
         near = np.abs(slots - slots[most]) < SAME_DECAY
         slot = float(np.exp(np.median(slots[near])))
-        if slot <= LONGEST_SLOT and not contradicts(score_stays(time, speed, slot)):
+        if not contradicts(score_stays(time, speed, slot)):
             return slot
         likely &= ~near
     return 0.0

@@ -29,6 +29,7 @@ from motor_identification.diagnosis.selection.determination import (
     is_undetermined,
 )
 from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
+from motor_identification.discrepancy.structure import Structure
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.parameter_space import map_theta
@@ -499,18 +500,31 @@ def test_a_single_step_says_what_may_be_missing_and_no_size() -> None:
         assert any(np.isfinite(sigma) for _, sigma in finding.parameters.values())
 
 
-@pytest.mark.parametrize(("each", "beside", "kept"), [(1.01, True, True), (0.99, True, False), (1.01, False, False)])
+@pytest.mark.parametrize(
+    ("each", "beside", "outside", "kept"),
+    [
+        (1.01, (True, True), False, True),
+        (0.99, (True, True), False, False),
+        (1.01, (False, True), False, False),  # likelihoods of two kinds
+        (1.01, (True, False), False, False),
+        (1.01, (True, True), True, False),  # for which they stood in
+    ],
+)
 def test_what_a_slow_torque_does_in_turn_for_each_stays_where_it_does_not_for_all(
-    monkeypatch: pytest.MonkeyPatch, each: float, beside: bool, kept: bool
+    monkeypatch: pytest.MonkeyPatch, each: float, beside: tuple[bool, bool], outside: bool, kept: bool
 ) -> None:
     """Friction and asymmetry of ten runs at levels of their own: neither was missed alone, both were by 18."""
+    torque = ErrorModel(0.1, 0.0, 0.1, 1.0)
     plain, one = stub_model(2.0, 0.0), stub_model(1.5, 0.0, 9.0)
     both = stub_model(1.4, 0.0, 2.0 * each * likelihood_threshold())
-    if beside:
-        both = replace(both, learned=ErrorModel(0.1, 0.0, 0.1, 1.0))
+    both, plain = (
+        replace(model, learned=torque if with_it else None)
+        for model, with_it in zip((both, plain), beside, strict=True)
+    )
     steps = found_step(plain, one, "coulomb_friction"), found_step(one, both, "direction_asymmetry")
     smaller = Selection(steps, both, fitted()[1], 1)
-    rest = replace(smaller, steps=(), model=plain)
+    structure = Structure("past", 0.9, 100.0, relevant=True, cause="") if outside else None
+    rest = replace(smaller, steps=(), model=plain, outside=structure)
     monkeypatch.setattr(determination, "eliminate_backward", lambda *_: rest)
     monkeypatch.setattr(determination, "predicts_far_worse", lambda *_: False)
     assert determination._eliminate_unless_seen(smaller, SILENT) is (smaller if kept else rest)

@@ -99,6 +99,10 @@ speed_test.u      | voltage        |       |
 d.samplingT1.w_meas | speed        |       |
 d.samplingT1.th   |                |       |
 d.samplingT1.t    | time           |       |
+time.s            | time           | s     |
+Temps.s           | time           | s     |
+stamp.nanosec     | time           |       |
+voltage.command   | voltage        |       |
 time.data         | time           |       |
 reference.speed   | reference      |       |
 motor.speed.values | speed         |       |

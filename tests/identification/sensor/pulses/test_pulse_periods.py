@@ -156,3 +156,20 @@ def test_a_motor_that_is_seldom_slow_shows_its_slot(many: int, told: bool, monke
     monkeypatch.setattr(pulse_periods, "MANY_DECAYS", many)
     found = find_slot_by_decays(0.005 * np.arange(10 * len(time)), np.concatenate([speed, fast]))
     assert found == (pytest.approx(2.0 * np.pi / 12, rel=1e-4) if told else 0.0)
+
+
+def test_a_few_slots_are_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of counts in rows of uneven lengths there were 40, each of which took 0.2 s of ten minutes at 1 kHz."""
+    time, speed = logged(12, 200.0, falls=True)
+    looked: list[float] = []
+
+    def contradicted(_: Floats, __: Floats, slot: float) -> float:
+        looked.append(slot)
+        return -1e9
+
+    monkeypatch.setattr(pulse_periods, "score_stays", contradicted)
+    monkeypatch.setattr(pulse_periods, "BEYOND_CHANCE", 0.0)
+    monkeypatch.setattr(pulse_periods, "OF_ALL_FALLS", 0.0)
+    monkeypatch.setattr(pulse_periods, "FEWEST_DECAYS", 1)
+    assert find_slot_by_decays(time, speed) == 0.0 and len(looked) == pulse_periods.CANDIDATES
+    assert looked[0] == pytest.approx(2.0 * np.pi / 12, rel=1e-4)
