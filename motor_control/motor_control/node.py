@@ -20,7 +20,6 @@ from motor_model.errors import MotorError
 from motor_msgs.msg import MotorInfo, MotorSpeed
 from motor_ros import qos
 from motor_ros.clocks.steady_timer import steady_timer
-from motor_ros.graph.callers import serve_known
 from motor_ros.graph.players import find_playing_caller
 from motor_ros.messages import info_of, sample_of
 from motor_ros.parameters import declare
@@ -44,7 +43,7 @@ class MotorControl(Node):
         self.create_subscription(MotorSpeed, "motor/speed", self._on_speed, qos.newest(qos.SPEED))
         self.create_subscription(MotorInfo, "motor/info", self._on_info, qos.INFO)
         self._demands = Demands(self, self._settings.config)
-        serve_known(self, Trigger, "motor/reset", lambda _: True, lambda _, response: self._on_reset(response), _refuse)
+        self.create_service(Trigger, "motor/reset", lambda _, response: self._on_reset(response))
         self.create_service(Trigger, "motor/release", lambda _, response: self._on_release(response))
         steady_timer(self, WATCH_EVERY, self._on_watch)
         steady_timer(self, LOOK_EVERY, lambda: self._settings.bar(self._neighbours.crossed()))
@@ -85,7 +84,8 @@ class MotorControl(Node):
 
     def _on_reset(self, response: Trigger.Response) -> Trigger.Response:
         if played := find_playing_caller(self, "motor/reset"):
-            return _refuse(response, played)
+            response.message = played
+            return response
         response.message, self._state = controller.reset(self._state, time.monotonic())
         response.success = not self._state.latched
         return response
@@ -112,11 +112,6 @@ class MotorControl(Node):
         if why and self._state.demand is not None:
             self._state = controller.stop(self._state, why, now)
         return SetParametersResult(successful=True)
-
-
-def _refuse(response: Trigger.Response, refusal: str) -> Trigger.Response:
-    response.success, response.message = False, refusal
-    return response
 
 
 def main(args: list[str] | None = None) -> int:

@@ -15,7 +15,6 @@ from motor_msgs.msg import MotorInfo, MotorSpeed, MotorVoltage
 from motor_ros import qos
 from motor_ros.clocks.hold_ups import HoldUps
 from motor_ros.gate import AWAY, CONFLICT, OFF, STOPPED, Gate
-from motor_ros.graph.callers import serve_known
 from motor_ros.graph.commanders import Commanders
 from motor_ros.graph.other_plant import OtherPlant
 from motor_ros.graph.players import find_playing_caller
@@ -72,7 +71,7 @@ class Plant:
             commanders=self._commanders,
             counts=lambda message, arrival: self.gate.goes_on(message.header.frame_id, arrival.number, arrival.at),
         )
-        serve_known(node, SetBool, "motor/enable", self._would_switch_on, self._on_enable, _refuse)
+        node.create_service(SetBool, "motor/enable", self._on_enable)
         self.publish_info()
 
     def now(self) -> int:
@@ -182,9 +181,6 @@ class Plant:
         self._old, self._old_at = OLD.format(message.voltage, abs(age), "ago" if age > 0.0 else "ahead"), now
         return True
 
-    def _would_switch_on(self, request: SetBool.Request) -> bool:
-        return bool(request.data) and not (self.gate.enabled and self.gate.begun)  # not for who calls again and again
-
     def _on_enable(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
         was_on = self.gate.enabled
         self._changed()  # a stop that is due comes before what is asked for now
@@ -196,14 +192,10 @@ class Plant:
         if request.data and was_on and not self.gate.enabled:
             refusal = f"Just now, {self.gate.stopped}: look, then call again."
         if refusal:
-            return _refuse(response, refusal)
+            response.success, response.message = False, f"The output stays off. {refusal}"
+            return response
         self.gate = self.gate.enable(request.data)
         self._changed()
         response.success = True
         response.message = "The output is on." if request.data else OFF
         return response
-
-
-def _refuse(response: SetBool.Response, refusal: str) -> SetBool.Response:
-    response.success, response.message = False, f"The output stays off. {refusal}"
-    return response

@@ -29,22 +29,18 @@ def find_playing_caller(node: Node, service: str) -> str:
     `ros2 bag play --publish-service-requests` calls what was called when it was recorded.
     """
     resolved = node.resolve_service_name(service)
-    callers = [one for one in sorted(find_players(node)) if may_call(node, *_split(one), resolved)]
+    callers = [one for one in sorted(find_players(node)) if _may_call(node, one, resolved)]
     return CALLED.format(resolved, ", ".join(callers)) if callers else ""
 
 
-def may_call(node: Node, name: str, namespace: str, service: str) -> bool:
+def _may_call(node: Node, player: str, service: str) -> bool:
     """Tell whether a node has a client of a service."""
+    namespace, _, name = player.rpartition("/")
     try:
-        clients = node.get_client_names_and_types_by_node(name, namespace)
+        clients = node.get_client_names_and_types_by_node(name, namespace or "/")
     except NodeNameNonExistentError:  # it has ended
         return False
     return any(service == one for one, _ in clients)
-
-
-def _split(full: str) -> tuple[str, str]:
-    namespace, _, name = full.rpartition("/")
-    return name, namespace or "/"
 
 
 def _join(name: str, namespace: str) -> str:

@@ -14,7 +14,7 @@ from workbench import DOMAIN, Bench
 from motor_control.node import MotorControl
 from motor_msgs.msg import MotorSpeed, MotorVoltage
 from motor_ros import qos
-from motor_ros.graph.players import find_playing_caller, may_call
+from motor_ros.graph.players import _may_call, find_playing_caller
 from motor_ros.graph.publishers import UNKNOWN
 from motor_ros.messages import time_message, voltage_message
 
@@ -52,7 +52,7 @@ def test_a_request_of_a_recording_switches_nothing_on(bench: Bench, name: str, c
     player = rclpy.create_node(name, context=bench._context)
     if calls:
         player.create_client(SetBool, "motor/enable")
-    bench.wait(lambda: may_call(bench.node, name, "/", "/motor/enable") or not calls, "the client")
+    bench.wait(lambda: _may_call(bench.node, f"/{name}", "/motor/enable") or not calls, "the client")
     bench.wait(lambda: name in bench.node.get_node_names(), "the node")
     assert rig.plant._on_enable(SetBool.Request(data=False), SetBool.Response()).success  # whoever asks for that
     answer = rig.plant._on_enable(SetBool.Request(data=True), SetBool.Response())
