@@ -48,8 +48,8 @@ def estimate_relative_noise(values: Floats) -> float:
             return 0.0
         parts = sliding_window_view(values, order + 1)
         size: Floats = np.abs(np.mean(parts, axis=1))
-        one_way = np.all(parts > 0.0, axis=1) | np.all(parts < 0.0, axis=1)
-        differences = np.diff(values, n=order)[one_way & (size > least)] / size[one_way & (size > least)]
+        tells = (np.all(parts > 0.0, axis=1) | np.all(parts < 0.0, axis=1)) & (size > least)
+        differences = np.diff(values, n=order)[tells] / size[tells]
         if len(differences) < LEAST_SAMPLES:
             return 0.0
         found.append(_trimmed_rms(differences) / sqrt(comb(2 * order, order)))

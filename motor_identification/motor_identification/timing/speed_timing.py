@@ -95,7 +95,7 @@ def _find_row_times(shaper: Shaper, timing: Timing) -> RowTimes:
     By what is assumed, too: behind late stamps there may be no filter, though one made up for them.
     """
     stamped = Likelihood(shaper, timing)
-    least = stamped.of(timing.filter) + max(LEAST_GAIN, LEAST_GAIN_OF_ROW * stamped.count)
+    least = stamped.of(timing.filter) + _find_least_gain(stamped.count)
     likely = {
         rows: max(Likelihood(replace(shaper, rows=rows), one).of(one.filter) for one in {timing, ASSUMED})
         for rows in list_row_times(max(shaper.recordings, key=len))
@@ -171,8 +171,8 @@ def _choose_instants(shaper: Shaper, slot: float) -> Timing:
     later, early = (shaper.fit(replace(timing, slot=slot)) for timing in (OTHERS[0], OTHERS[2]))
     row = min(recording.info.sample_period for recording in shaper.recordings)
     too_early = later.delay <= LEAST_DELAY * row and early.delay < SURELY_EARLY * row
-    enough = max(LEAST_GAIN, LEAST_GAIN_OF_ROW * len(early.residuals))
-    return OTHERS[2] if too_early and measure_gain_of_speeds(later, early) > enough else OTHERS[0]
+    likelier = too_early and measure_gain_of_speeds(later, early) > _find_least_gain(len(early.residuals))
+    return OTHERS[2] if likelier else OTHERS[0]
 
 
 def _find_instants(shaper: Shaper) -> Timing | None:
@@ -204,4 +204,9 @@ def _are_open(recordings: Sequence[Recording]) -> bool:
 
 def _is_likelier(one: Floats, other: Floats) -> bool:
     """Decide whether one timing's residuals (I,) are much likelier than another's."""
-    return measure_gain(other, one) > max(LEAST_GAIN, LEAST_GAIN_OF_ROW * len(one))
+    return measure_gain(other, one) > _find_least_gain(len(one))
+
+
+def _find_least_gain(count: int) -> float:
+    """Find how much likelier, of log likelihood, another timing of so many rows has to be."""
+    return max(LEAST_GAIN, LEAST_GAIN_OF_ROW * count)

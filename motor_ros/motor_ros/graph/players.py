@@ -1,6 +1,8 @@
 """Know the nodes that play recordings: what they send, and the services they call, nobody asks for today."""
 
-from rclpy.node import Node, NodeNameNonExistentError
+from rclpy.node import Node
+
+from motor_ros.graph.publishers import ask_of_node, full_name
 
 # How `ros2 bag play` calls its node, and what it serves under whatever name. A recording that it plays asks nobody, and
 # leaves a motor as it is at its end.
@@ -19,7 +21,7 @@ def find_servers(node: Node) -> set[str]:
 
 def find_players(node: Node) -> set[str]:
     """Find all nodes that play recordings, by their full names."""
-    named = {_join(name, space) for name, space in node.get_node_names_and_namespaces() if name == PLAYER}
+    named = {full_name(space, name) for name, space in node.get_node_names_and_namespaces() if name == PLAYER}
     return named | find_servers(node)
 
 
@@ -35,13 +37,4 @@ def find_playing_caller(node: Node, service: str) -> str:
 
 def _may_call(node: Node, player: str, service: str) -> bool:
     """Tell whether a node has a client of a service."""
-    namespace, _, name = player.rpartition("/")
-    try:
-        clients = node.get_client_names_and_types_by_node(name, namespace or "/")
-    except NodeNameNonExistentError:  # it has ended
-        return False
-    return any(service == one for one, _ in clients)
-
-
-def _join(name: str, namespace: str) -> str:
-    return f"{namespace.rstrip('/')}/{name}"
+    return any(service == one for one, _ in ask_of_node(node.get_client_names_and_types_by_node, player))

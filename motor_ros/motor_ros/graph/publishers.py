@@ -1,5 +1,6 @@
 """List who publishes a topic, and who hears one, as the middleware tells it."""
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 from rclpy.node import Node, NodeNameNonExistentError
@@ -41,12 +42,17 @@ def published_topics(node: Node, kind: str) -> list[str]:
 
 def topics_of_node(node: Node, name: str, kind: str) -> list[str]:
     """List the topics of a type that the node of that full name publishes, in alphabetical order."""
+    found = ask_of_node(node.get_publisher_names_and_types_by_node, name)
+    return sorted(topic for topic, kinds in found if kind in kinds)
+
+
+def ask_of_node(ask: Callable[[str, str], list[tuple[str, list[str]]]], name: str) -> list[tuple[str, list[str]]]:
+    """Ask what the node of a full name has, such as publishers: names and types; nothing of one that has ended."""
     namespace, _, own = name.rpartition("/")
     try:
-        found = node.get_publisher_names_and_types_by_node(own, namespace or "/")
-    except NodeNameNonExistentError:  # it has ended
+        return ask(own, namespace or "/")
+    except NodeNameNonExistentError:
         return []
-    return sorted(topic for topic, kinds in found if kind in kinds)
 
 
 def kind_of(message: type) -> str:
@@ -68,8 +74,9 @@ def publisher_ids(node: Node, topic: str) -> frozenset[Id]:
 
 
 def _one(found: TopicEndpointInfo) -> Publisher:
-    return Publisher(tuple(found.endpoint_gid), _name(found.node_namespace, found.node_name))
+    return Publisher(tuple(found.endpoint_gid), full_name(found.node_namespace, found.node_name))
 
 
-def _name(namespace: str, name: str) -> str:
+def full_name(namespace: str, name: str) -> str:
+    """Join a node's namespace and name; "" where the middleware does not know it yet."""
     return "" if name == UNKNOWN else f"{namespace.rstrip('/')}/{name}"

@@ -71,7 +71,7 @@ def read_heading(name: str) -> Heading:
 
 def _tell_by_field(name: str, quantity: Quantity | None) -> Quantity | None:
     """The quantity of a struct's field, `speed_test.u`: by its own name, before that of the struct; else as it was."""
-    field = read_heading(find_field(name)) if find_field(name) else None
+    field = read_heading(own) if (own := find_field(name)) else None
     if field is None or quantity in _OF_WHOLE_STRUCTS or not set(field.words) - _ANY_FIELD:
         return quantity
     if quantity is Quantity.TIME and not field.quantity:  # `d.samplingT1.th` is none; `time.s` and `stamp.nanosec` are
