@@ -74,10 +74,10 @@ def find_filter(shaper: Shaper, timings: Sequence[Timing]) -> Timing:
     best, sure = _choose_filter(each[0], means, are_open)
     if best is None or not (sure or _is_worth_it(each, each[0], best)):
         return timings[0]
-    likelihood = max(each, key=lambda one: one.of(best) + AS_LIKELY * (one.timing == ASSUMED))
-    if likelihood is not each[0]:
-        best = _choose_filter(likelihood, means, are_open)[0] or best
-    return replace(likelihood.timing, filter=best)
+    # Poles that are off make up for a timing that is not the log's: each timing has a filter of its own.
+    own = {one: (None if sure or one is each[0] else _choose_filter(one, means, are_open)[0]) or best for one in each}
+    likelihood = max(each, key=lambda one: one.of(own[one]) + AS_LIKELY * (one.timing == ASSUMED))
+    return replace(likelihood.timing, filter=own[likelihood])
 
 
 def _are_counts(recordings: Sequence[Recording]) -> bool:

@@ -26,10 +26,18 @@ from motor_identification.reporting.fit_model_file import save_model
 from motor_identification.reporting.model_comparison import Identified
 from motor_identification.sensor.value_lattice import find_lattice
 from motor_identification.timing import smoothing
-from motor_identification.timing.smoothing import CLIMB, _climb, _find_peak, _list_lattices
+from motor_identification.timing.shaped_fit import Shaper
+from motor_identification.timing.smoothing import (
+    CLIMB,
+    Likelihood,
+    _climb,
+    _find_peak,
+    _list_lattices,
+    find_filter,
+)
 from motor_identification.timing.speed_filter import MEAN, MEMORY, SpeedFilter, parse_filter
 from motor_identification.timing.speed_timing import find_timing
-from motor_identification.timing.timing import INSTANT, Timing
+from motor_identification.timing.timing import ASSUMED, INSTANT, OTHERS, Timing
 from motor_identification.uncertainty.result import Fit
 from motor_model.errors import ModelError
 from motor_model.model_file import load, load_errors, load_residual_rms, load_speed_filter
@@ -75,6 +83,25 @@ def test_values_of_an_instant_are_told_when_smoothed_too() -> None:
     found = timing_of(smoothed(noisy(0.5, instant=True), 0.7))
     assert found is not None and (found.window, found.lag) == (INSTANT, 0.0)
     assert found.filter is not None and found.filter.number == pytest.approx(0.7, abs=0.03)
+
+
+def test_each_timing_has_a_filter_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Poles that are off make up for another timing; these numbers are of a tachogenerator behind a Butterworth's."""
+    tops = {ASSUMED: (0.84, 1.7), OTHERS[0]: (0.8, 2.3)}
+
+    def measure(likelihood: Likelihood, passed: SpeedFilter | None, _: Sequence[str] = ()) -> float:
+        likelihood.count = 1000
+        number, most = tops[likelihood.timing]
+        if passed is None or passed.kind != "butterworth":
+            return 0.0 if passed is None else 0.5 - abs(passed.number - 0.6)
+        return most - 20.0 * abs(passed.number - number)
+
+    monkeypatch.setattr(Likelihood, "_measure", measure)
+    recording = noisy(0.5, instant=True)
+    shaper = Shaper([recording], search_globally(make_problem([recording], ()), SearchConfig())[0], None)
+    found = find_filter(shaper, (ASSUMED, OTHERS[0]))
+    assert found.lag == OTHERS[0].lag
+    assert found.filter is not None and found.filter.number == pytest.approx(0.8, abs=0.005)
 
 
 @pytest.mark.parametrize(
