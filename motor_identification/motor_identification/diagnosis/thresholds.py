@@ -230,6 +230,9 @@ HOLDING_VOLTAGE = 0.01
 
 # How far is searched?
 MOST_FINDINGS = 5  # more than any motor had that was measured: four of 310 public recordings
+# The same where another one is likelier than one of those. Measured: an asymmetry by 246 as the sixth, of a motor with
+# friction, bias and delay, beside a load step by 48 and a dead zone by 99 that had stood in for it.
+MOST_WITH_STAND_INS = 7
 # Of a step alone, or a response as short: a second effect only bends the first one's curve, unless it explains all the
 # rest (`STAND_IN_SHARE`). Measured: drag of a motor that had friction and a delay, coasting of one on a braking bridge;
 # and a delay beside a friction in a speed loop, which left a seventh.

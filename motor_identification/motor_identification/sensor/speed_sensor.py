@@ -116,7 +116,7 @@ def find_noise(
         return tau / edges / window, 0.0, edges
     moving = mark_motion(values)
     step, noise = find_lattice(values), estimate_white_noise(values[moving], voltage[moving])
-    beyond = NOISE_BEYOND_DIGITS if _is_last_digit(step) or _is_last_bit(step) else NOISE_BEYOND
+    beyond = NOISE_BEYOND_DIGITS if _list_digits(values, step) or _is_last_bit(step) else NOISE_BEYOND
     counted = counted and step > 0.0 and not _is_of_digits(values, step, window)
     if counted and noise < beyond * COUNT_NOISE * step:
         return step, 0.0, round(tau / (step * window))
@@ -139,31 +139,25 @@ def are_smoothed(values: Floats, voltage: Floats, step: float) -> bool:
     return estimate_white_noise(values[moving], voltage[moving]) < SMOOTHER * COUNT_NOISE * step
 
 
-def _is_last_digit(step: float) -> bool:
-    """Whether a step [rad/s] is 1, 0.1, 0.01 … of a unit that people print speeds in."""
-    return bool(_list_digits(step))
+def _list_digits(values: Floats, step: float) -> list[tuple[float, float]]:
+    """List the units of which the step [rad/s] of values (K,) is a last digit 1, 0.1, 0.01 …, each with that [rad/s].
 
-
-def _list_digits(step: float) -> list[tuple[float, float]]:
-    """List the units in which a step [rad/s] is a last digit, each with that [rad/s]."""
+    To the digit: a count's step that comes near to one by chance is off by more where there are many of it.
+    """
     places = [(unit, log10(step / unit)) for unit in PRINTED_UNITS if step > 0.0]
-    return [
+    near = [
         (unit, unit * 10.0 ** round(place))
         for unit, place in places
         if place < 0.5 and abs(place - round(place)) < SAME_DIGIT
     ]
+    return [
+        (unit, digit) for unit, digit in near if np.all(np.abs(values / digit - np.rint(values / digit)) < WHOLE_DIGIT)
+    ]
 
 
 def _is_of_digits(values: Floats, step: float, window: float) -> bool:
-    """Whether the step [rad/s] of values (K,) is that of printed digits, and of no counts within a window [s].
-
-    To the digit: a count's step that comes near to one by chance is off by more where there are many of it.
-    """
-    return any(
-        bool(np.all(np.abs(values / digit - np.rint(values / digit)) < WHOLE_DIGIT))
-        and (unit == 1.0 or tau > MOST_COUNTS * digit * window)
-        for unit, digit in _list_digits(step)
-    )
+    """Whether the step [rad/s] of values (K,) is that of printed digits, and of no counts within a window [s]."""
+    return any(unit == 1.0 or tau > MOST_COUNTS * digit * window for unit, digit in _list_digits(values, step))
 
 
 def _is_last_bit(step: float) -> bool:

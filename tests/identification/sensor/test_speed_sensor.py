@@ -136,6 +136,16 @@ def test_a_lattice_of_printed_digits_is_none_of_counts(step: float, window: floa
     assert counts or sigma >= step / sqrt(12.0)
 
 
+@pytest.mark.parametrize(("near", "counts"), [(1e-5, 0), (3.5e-4, 12562)])
+def test_counts_that_come_near_to_a_digit_keep_the_motion_between_rows(near: float, counts: int) -> None:
+    """Where speeds change by counts a row, a lattice of digits is taken for noise; one of 0.10003 rad/s is none."""
+    step = 0.1 * (1.0 + near)
+    level = 120.0 * np.sin(np.linspace(0.0, 40.0, 1000)) + 1.5 * np.random.default_rng(3).standard_normal(1000)
+    found, sigma, edges = find_noise(step * np.rint(level), np.ones(1000), 0, 0.005)
+    assert (found > 0.0, edges) == (counts > 0, counts)
+    assert (sigma > 0.0) == (counts == 0)
+
+
 def counted_by_own_rows(uneven: float, edges: int = 96) -> Recording:
     """Counts of rows that differ in length by as much of it, divided by their lengths; a pause before the last 20."""
     log, random = without_count(as_speed(recorded(3, edges))), np.random.default_rng(5)

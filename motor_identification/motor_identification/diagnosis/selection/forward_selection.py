@@ -51,7 +51,7 @@ def select_forward(
         selection = replace(selection, model=split_kv(selection.model, selection.hold_out))
         selection, tests = verify_findings(selection, _try_all_effects(selection, reporter))
         best = choose_finding(tests)
-        if len(selection.steps) >= thresholds.MOST_FINDINGS or (best is not None and not _may_add(best, selection)):
+        if best is not None and not _may_add(best, selection):
             return selection
         if best is not None:
             step = SelectionStep(selection.model, best, tuple(tests), find_rivals(best, tests), best.explains)
@@ -73,7 +73,14 @@ def select_forward(
 
 
 def _may_add(finding: CandidateTest, selection: Selection) -> bool:
-    """Decide whether a finding may be added: to what one response tells alone, only one that explains the rest."""
+    """Decide whether a finding may be added: to what one response tells alone, only one that explains the rest.
+
+    To as many as any motor has, only one that is likelier than one of those, which stood in for it then.
+    """
+    count = len(selection.steps)
+    least = min((step.found.evidence for step in selection.steps), default=0.0)
+    if count >= (thresholds.MOST_FINDINGS if finding.evidence <= least else thresholds.MOST_WITH_STAND_INS):
+        return False
     several = len(selection.steps) - thresholds.MOST_OF_ONE_RESPONSE
     return (
         selection.model.held.confirms or several < 0 or (several == 0 and finding.explains > thresholds.STAND_IN_SHARE)

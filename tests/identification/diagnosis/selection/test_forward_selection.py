@@ -103,6 +103,25 @@ def test_no_more_findings_than_the_most(monkeypatch: pytest.MonkeyPatch) -> None
     assert len(select_forward(selection_of(stub_model(100.0)), SILENT).steps) == 4
 
 
+@pytest.mark.parametrize(("most", "count"), [(3, 3), (4, 4), (9, 5)])
+def test_what_is_likelier_than_a_finding_is_one_more(monkeypatch: pytest.MonkeyPatch, most: int, count: int) -> None:
+    """As the sixth finding, an asymmetry was likelier than a load step and a dead zone that had stood in for it."""
+    fake = Fake(monkeypatch, [100.0 * 0.5**k for k in range(1, 7)])
+    evidence = iter([500.0, 300.0, 50.0, 60.0, 70.0, 40.0, 30.0])
+    plain = fake.try_effects
+    known: dict[float, float] = {}
+
+    def speak(current: Model, hold_out: Any, effects: list[str], *rest: Any) -> list[CandidateTest]:
+        said = known.setdefault(current.held.gap, next(evidence, 30.0))
+        tests = plain(current, hold_out, effects, *rest)
+        return [stub_test(one.effect, current, one.model.held.gap, said * (one.evidence > 0.0)) for one in tests]
+
+    monkeypatch.setattr(forward_selection, "try_effects", speak)
+    monkeypatch.setattr(thresholds, "MOST_FINDINGS", 3)
+    monkeypatch.setattr(thresholds, "MOST_WITH_STAND_INS", most)
+    assert len(select_forward(selection_of(stub_model(100.0)), SILENT).steps) == count
+
+
 def test_one_response_tells_one_effect(monkeypatch: pytest.MonkeyPatch) -> None:
     Fake(monkeypatch, [100.0 * 0.5**k for k in range(1, 5)])
     start = stub_model(100.0)
