@@ -218,6 +218,31 @@ def test_two_that_are_promised_together_are_selected_beside_a_torque(
     assert list(select_forward(selection_of(start), SILENT).steps) == (pair if beside else [])
 
 
+@pytest.mark.parametrize("line", [True, False])
+def test_a_load_once_a_turn_is_tried_where_no_line_is_found(line: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of ripples of 0.15 and 0.72 V beside friction, lines promised nothing, and they were likelier by 64 and 45."""
+    monkeypatch.setattr(forward_selection, "list_candidates", lambda *_: ["torque_ripple"])
+    monkeypatch.setattr(forward_selection, "promises_anything", lambda model: False)
+    monkeypatch.setattr(forward_selection, "find_pair", lambda *_: [])
+    monkeypatch.setattr(Selection, "add", added)
+    tried: list[Model] = []
+
+    def find_no_line(current: Model, hold_out: Any, effects: list[str], *_: Any) -> list[CandidateTest]:
+        none = CandidateTest("torque_ripple", current, current)
+        return [stub_test("torque_ripple", current, 5.0, 1.0) if line else none for _ in effects]
+
+    def turn(current: Model, _: Any) -> CandidateTest:
+        tried.append(current)
+        return stub_test("torque_ripple", current, 1.0, 1000.0 / len(tried) ** 9)
+
+    monkeypatch.setattr(forward_selection, "try_effects", find_no_line)
+    monkeypatch.setattr(forward_selection, "try_load_once_a_turn", turn)
+    monkeypatch.setattr(forward_selection, "has_few_turns", lambda _: False)
+    found = select_forward(selection_of(stub_model(9.0)), SILENT)
+    assert [step.found.effect for step in found.steps] == ([] if line else ["torque_ripple"])
+    assert bool(tried) is not line
+
+
 def test_a_load_once_a_turn_is_no_disc_in_few_turns(monkeypatch: pytest.MonkeyPatch) -> None:
     """The spectrum promises less of it than the disc gains, which is then likely and takes away most."""
     time = 0.01 * np.arange(800)
