@@ -50,6 +50,12 @@ class TimeBlocks:
         block = number_blocks(times, compute_block_length(data, sample_period, self.stretch))
         return np.asarray((block + number) % self.every == self.every - 1)
 
+    def measure_blindness(self, time: float, data: Intervals, sample_period: float, number: int = 0) -> float:
+        """Measure for how long [s] nothing tells when something happened near a time [s], without these blocks."""
+        length = compute_block_length(data, sample_period, self.stretch)
+        around = np.array([time - NEAR_A_BLOCK * length, time, time + NEAR_A_BLOCK * length])
+        return length if self.find_times(around, data, sample_period, number).any() else 0.0
+
     def mark_near(self, times: Sequence[float], data: Intervals, sample_period: float) -> Bools:
         """Mark the intervals that begin in a block, of whatever purpose, with one of some times [s], shape (I,).
 

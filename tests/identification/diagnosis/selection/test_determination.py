@@ -20,6 +20,7 @@ from motor_identification.diagnosis.selection import determination
 from motor_identification.diagnosis.selection.determination import (
     drop_undetermined,
     drop_undetermined_at_once,
+    find_blindness,
     find_limits_hit,
     find_undetermined,
     has_vague_instant,
@@ -33,6 +34,8 @@ from motor_identification.discrepancy.structure import Structure
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.parameter_space import map_theta
+from motor_identification.estimation.whitened_fit import WhitenedFit
+from motor_identification.measurement.time_blocks import TimeBlocks, compute_block_length
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter
 from motor_identification.recording import check
@@ -185,10 +188,32 @@ def test_a_load_that_may_come_on_at_any_time_is_none(
     assert is_needed(found_step(model, model, "load_step"), model, worse) != vague
 
 
+@pytest.mark.parametrize("block", range(4, 8))
+def test_an_instant_in_what_no_fit_may_see_is_placed_no_better(block: int) -> None:
+    """A load step came there: no fit sees when, and what was before and after tells its size."""
+    estimate, _ = fitted()
+    problem = estimate.problem.keeping_out(TimeBlocks(4, stretch=2.0))
+    length = compute_block_length(problem.intervals[0], problem.sample_period, 2.0)
+    assert length > thresholds.VAGUE_INSTANT * problem.recordings[0].duration
+    fit, hidden = (
+        with_effect(estimate.on(problem), "load_step", {"step_voltage": 0.3, "step_time": 1.0}),
+        block % 4 == 3,
+    )
+    at = fit.problem.unknowns.names.index("step_time")
+    fit.theta[at] = (block + 0.5) * length
+    assert find_blindness(cast(WhitenedFit, fit), at) == (length if hidden else 0.0)
+    for share, vague in ((0.99, not hidden), (1.01, True)):
+        errors = np.full(len(fit.theta), share * length)
+        model = cast(Model, SimpleNamespace(whitened=fit, uncertainty=SimpleNamespace(errors=errors)))
+        assert has_vague_instant("load_step", model) is vague
+
+
 def test_an_instant_that_one_of_several_recordings_places_is_one(monkeypatch: pytest.MonkeyPatch) -> None:
     errors = np.array([0.9, 1.1]) * thresholds.VAGUE_INSTANT
     known = SimpleNamespace(errors=errors)
-    model = cast(Model, SimpleNamespace(whitened=SimpleNamespace(problem=None), uncertainty=known))
+    model = cast(
+        Model, SimpleNamespace(whitened=SimpleNamespace(problem=SimpleNamespace(kept_out=None)), uncertainty=known)
+    )
     monkeypatch.setattr(determination, "list_instant_columns", lambda *_: [(0, 1.0), (1, 1.0)])
     assert not has_vague_instant("load_step", model)
     errors[0] = errors[1]
