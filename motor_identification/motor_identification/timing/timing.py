@@ -125,8 +125,14 @@ def list_readings(recording: Recording, passed: SpeedFilter | None = None) -> tu
 
 
 def is_voltage_open(recording: Recording) -> bool:
-    """Decide whether a recording is of counts, of which nobody said from when on their rows' voltages hold."""
-    return recording.info.measurement is Measurement.COUNTS and recording.info.voltage_assumed
+    """Decide whether a recording is of counts, of which nobody said from when on their rows' voltages hold.
+
+    Speeds of said counts are those of a row, whose end is known.
+    """
+    info = recording.info
+    counted = info.measurement is Measurement.COUNTS
+    counted = counted or (info.measurement is Measurement.SPEED and info.edges_per_revolution > 0)
+    return counted and info.voltage_assumed
 
 
 def is_open(recording: Recording) -> bool:
