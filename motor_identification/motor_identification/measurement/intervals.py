@@ -86,12 +86,15 @@ class Intervals:
         """Whether what is on the encoder's disc would show.
 
         Not where every value has a white noise, of what may count nothing; nor in speeds of rows whose lengths, or the
-        stamps that tell them, are by chance: that scatters as they do, by a share of the speed.
+        stamps that tell them, are by chance: that scatters as they do, by a share of the speed. Unless speeds are known
+        to be counts by their own row's length.
         """
         if self.independent or self.window == 0.0 or len(self.last) < 2:
             return not self.independent
-        low, middle, high = np.quantile(np.diff(self.time[self.last]), (0.1, 0.5, 0.9))
-        return bool(high - low < UNEVEN_ROWS * middle)
+        rows = np.diff(self.time[self.last])
+        low, middle, high = np.quantile(rows, (0.1, 0.5, 0.9))
+        own = np.quantile(np.abs(self.duration[1:] - rows), 0.8) < UNEVEN_ROWS * middle
+        return bool(own or high - low < UNEVEN_ROWS * middle)
 
     @cached_property
     def fresh(self) -> Bools:

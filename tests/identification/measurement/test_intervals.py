@@ -66,6 +66,18 @@ def test_at_constant_speed_a_slow_disc_is_known_better_than_a_slot() -> None:
         assert 0.75 < np.mean(scatter) / blur < 1.15
 
 
+@pytest.mark.parametrize(
+    ("uneven", "known", "tells"), [(0.0, False, True), (0.3, False, False), (0.3, True, True), (0.3, None, False)]
+)
+def test_a_disc_shows_where_the_lengths_of_rows_are_known(uneven: float, known: bool | None, tells: bool) -> None:
+    """Speeds of counts that are whole by their own row's length were of an eccentric disc, and "not in the table"."""
+    rows = 0.02 * (1.0 + uneven * np.random.default_rng(1).uniform(-1.0, 1.0, 200))
+    end = np.cumsum(rows)
+    length = rows if known else np.full(200, 0.02)
+    some = index_intervals(end - length, end, np.ones(200), np.zeros(200), window=0.02, independent=known is None)
+    assert some.tells_of_disc is tells
+
+
 @pytest.mark.parametrize("volts", [1.5, 3.0, 12.0])
 def test_the_blur_is_true_through_starts_stops_and_reversals(volts: float) -> None:
     score, left = [], []

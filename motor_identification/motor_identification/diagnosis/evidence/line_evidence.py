@@ -30,7 +30,7 @@ def has_waves(test: CandidateTest) -> bool:
 
     What is on the disc moves no motor: it is in step with the angle at once, where a torque lags behind. So one turn
     is enough where it takes away most of what is left, and some turns of a load that takes away nearly all; of other
-    torques some waves, if what they take nearly all of was held out.
+    torques some waves, if what they take nearly all of was held out, or nothing is left but what the sensor leaves.
     """
     waves = count_waves(test.model, test.effect)
     if waves > thresholds.LEAST_WAVES:
@@ -38,7 +38,8 @@ def has_waves(test: CandidateTest) -> bool:
     if EFFECT_BY_NAME[test.effect].on_disc:
         return waves > thresholds.LEAST_TURNS and test.explains > thresholds.MOST_OF_GAP
     nearly_all = waves > thresholds.LEAST_TURNS_OF_LOAD and test.explains > thresholds.NEARLY_ALL_OF_GAP
-    return nearly_all and (_goes_once_a_turn(test.model, test.effect) or not test.model.held.seen)
+    told = not test.model.held.seen or test.model.at_floor
+    return nearly_all and (_goes_once_a_turn(test.model, test.effect) or told)
 
 
 def drop_few_turns(tests: Sequence[CandidateTest]) -> list[CandidateTest]:
