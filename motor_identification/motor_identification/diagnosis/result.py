@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from enum import Enum
 from math import isfinite
 
+from motor_identification.diagnosis.thresholds import EXPLAINED_GAP
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.noise.error_model import Disturbance
 from motor_identification.recording import Floats
@@ -95,6 +96,12 @@ class Diagnosis:
     nearest: Nearest | None = None  # where nothing explains the gap, but something takes away most of it
     gain_scatter: float = 0.0  # standard deviation of the runs' gains, as of a supply that differs; 0 where they agree
     time_limit: float = 0.0  # [s] that ended the search before everything was tried; 0 where none did
+
+    @property
+    def is_unpredicted(self) -> bool:
+        """Whether more is left than the sensor leaves, that no random torque makes and nothing measured predicts."""
+        above = self.gap_after > EXPLAINED_GAP * self.sensor_floor
+        return above and self.disturbance is None and not any(one.certain for one in self.structure)
 
     @property
     def is_of_no_motor(self) -> bool:

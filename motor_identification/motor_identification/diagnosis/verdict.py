@@ -168,7 +168,9 @@ def decide(
     if not complete and last.held.confirms:
         # What leaves less than its own sensor does, as it was learned, is no motor that lacks something.
         below = selection.outside is None and last.held.gap <= thresholds.EXPLAINED_GAP * last.sensor_floor
-        verdict = Verdict.UNDECIDED if below else Verdict.UNEXPLAINED
+        # Nor is what nothing predicts, though no random torque makes it: noise of a sensor does.
+        open_ = below or not any(one.certain for one in selection.structure)
+        verdict = Verdict.UNDECIDED if open_ else Verdict.UNEXPLAINED
         return verdict, unclear or ("rich" if hidden or below else "")
     if unclear or any(finding.sensor_may_lag for finding in findings):  # of a sensor no experiment tells more
         return Verdict.UNDECIDED, unclear

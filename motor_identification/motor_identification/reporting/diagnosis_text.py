@@ -28,6 +28,10 @@ OF_SENSOR = "the speeds were smoothed or late before they were logged"
 DESCRIBE_SENSOR = (
     "Log the encoder's counts, or say how the speeds were made (--speed-window and --speed-lag of an import)."
 )
+UNPREDICTED = (
+    "Nothing that was measured predicts what is left, and no random torque makes it: noise of the sensor, such as "
+    "edges that are missed, or something that was not recorded, may."
+)
 UNMODELLED = "Check for a load, a supply or a sensor that was not recorded; the report shows the residual torque."
 
 STRUCTURE_NAMES = {
@@ -193,6 +197,8 @@ def _undecided(diagnosis: Diagnosis) -> str:
     else:
         parts = [_describe_no_finding(diagnosis)]
     follows = bool(diagnosis.findings) or find_ignored(diagnosis.after) is None
+    if follows and not diagnosis.undetermined and diagnosis.is_unpredicted:
+        parts.append(UNPREDICTED)
     if diagnosis.is_of_no_motor and follows:  # else the same was said, and what to check
         parts.append(NO_MOTOR)
     parts.append(describe_disturbance(diagnosis))
@@ -223,6 +229,8 @@ def _describe_no_finding(diagnosis: Diagnosis) -> str:
     if diagnosis.nearest is not None:
         text = f"Something may be missing that this recording does not tell from chance: {_describe_gap(diagnosis)}."
         return f"{text} {_describe_nearest(diagnosis)}"
+    if diagnosis.is_unpredicted:
+        return f"More is left than the sensor leaves by what is known of it: {_describe_gap(diagnosis)}."
     if diagnosis.disturbance is not None and diagnosis.gap_after > EXPLAINED_GAP * diagnosis.sensor_floor:
         return f"Nothing can be told apart from a random torque in this recording: {_describe_gap(diagnosis)}."
     return f"Nothing is missing that this recording could show: {_describe_gap(diagnosis)}."

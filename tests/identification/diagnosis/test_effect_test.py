@@ -27,6 +27,7 @@ from motor_identification.diagnosis.evidence.line_evidence import adds_only_line
 from motor_identification.diagnosis.start import begin
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.request import Request
+from motor_identification.measurement.intervals import index_intervals
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.recording import Floats, Recording, check
 from motor_identification.validation.hold_out import HoldOut
@@ -60,9 +61,9 @@ def test_candidates_are_what_a_model_lacks_and_can_have() -> None:
     noisy = replace(one, seen=False, intervals=tuple(replace(data, independent=True) for data in one.intervals))
     assert set(names) - set(list_candidates((), noisy)) == {"encoder_eccentricity"}  # no disc
     for jitter, window, hidden in ((0.1, 0.01, {"encoder_eccentricity"}), (0.02, 0.01, set()), (0.1, 0.0, set())):
-        data = one.intervals[0]
-        row = np.arange(len(data.time), dtype=np.float64)
-        rows = replace(data, time=0.01 * (row + jitter * (row % 2.0)), window=window)
+        row = np.arange(200.0)
+        end = 0.01 * (row + 1.0 + jitter * (row % 2.0))
+        rows = index_intervals(end - 0.01, end, np.ones(200), np.zeros(200), window=window)
         uneven = replace(one, seen=False, intervals=(rows,))
         assert set(names) - set(list_candidates((), uneven)) == hidden  # nor where rows of speeds are uneven
     swept = replace(one, seen=False, recordings=(sine(np.linspace(0.0, 6.0, 2001) ** 2),))

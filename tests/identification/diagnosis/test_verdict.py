@@ -59,6 +59,21 @@ def test_how_it_ended(
     assert decide(findings, chosen(stub_model(gap, 0.0)), hidden) == (verdict, profile)
 
 
+@pytest.mark.parametrize("said", [(), (finding(),)])
+def test_what_nothing_predicts_is_not_said_to_be_outside_the_table(
+    monkeypatch: pytest.MonkeyPatch, said: tuple[Finding, ...]
+) -> None:
+    """Missed edges of a fine encoder leave a noise that grows with the speed, which no torque makes."""
+    model, sure = stub_model(OVER, 0.0), Structure("speed", 0.5, 90.0)
+    monkeypatch.setattr(type(model), "complete", False)  # no torque makes it
+    for left, verdict in (((sure,), Verdict.UNEXPLAINED), ((replace(sure, share=0.01),), Verdict.UNDECIDED)):
+        monkeypatch.setattr(type(model), "structure", left)
+        assert decide(said, chosen(model), ()) == (verdict, "")
+    monkeypatch.setattr(type(model), "structure", ())
+    assert decide(said, chosen(model), ())[0] is Verdict.UNDECIDED
+    assert decide(said, chosen(model, sure), ())[0] is Verdict.UNEXPLAINED
+
+
 @pytest.mark.parametrize(
     ("confirms", "verdict", "profile"), [(False, Verdict.UNDECIDED, "ramps"), (True, Verdict.EXPLAINED, "")]
 )

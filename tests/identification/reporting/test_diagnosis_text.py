@@ -12,7 +12,7 @@ from motor_identification.discrepancy.structure import Structure
 from motor_identification.noise.error_model import Disturbance
 from motor_identification.reporting import diagnosis_text
 from motor_identification.reporting.diagnosis_table import format_parameters
-from motor_identification.reporting.diagnosis_text import SEEN, summarize_diagnosis
+from motor_identification.reporting.diagnosis_text import SEEN, UNPREDICTED, summarize_diagnosis
 from motor_identification.reporting.names import capitalize, join_effects
 from motor_model.effects import EFFECTS
 
@@ -198,4 +198,7 @@ def test_what_comes_nearest_is_told_where_nothing_is_named(
     one = replace(nothing, verdict=Verdict.UNDECIDED, after=replace(nothing.after, confirms=False))
     assert said in summarize_diagnosis(one) and "one response does not tell" in summarize_diagnosis(one)
     without = summarize_diagnosis(replace(nothing, verdict=Verdict.UNDECIDED, nearest=None))
-    assert without.startswith("Nothing is missing that this recording could show")
+    assert without.startswith("More is left than the sensor leaves by what is known of it") and UNPREDICTED in without
+    at_floor = replace(nothing, verdict=Verdict.UNDECIDED, nearest=None, sensor_floor=nothing.gap_after)
+    said = summarize_diagnosis(at_floor)
+    assert said.startswith("Nothing is missing that this recording could show") and UNPREDICTED not in said
