@@ -61,13 +61,14 @@ def find_timing(
     estimate: Estimate,
     restrict: Callable[[Problem], Problem] | None = None,
     beside: Sequence[str] = (),
+    filtered: bool = True,
 ) -> Timing | None:
     """Find when the speeds of recordings were made, and how smoothed they are, as their motion shows.
 
     Of counts, which are of their rows' instants, whether voltages held until these. None if as assumed, or as was said.
     estimate: of the same motor, as the assumed timing gives it. restrict: to what a fit may see; all, without. beside:
     effects that are known to be in the motor; of what only makes it late, and of what repeats with its angle, the
-    timing is found without.
+    timing is found without. filtered: whether they may have passed a filter.
     """
     if sum(len(recording) for recording in recordings) < LEAST_SPEEDS:
         return None
@@ -76,10 +77,10 @@ def find_timing(
         return UNTIL if held_until(shaper) else None
     if any(recording.info.measurement is not Measurement.SPEED for recording in recordings):
         return None
-    found = _find_as_stamped(shaper)
+    found = _find_as_stamped(shaper, filtered)
     if found is not None and found.slot == 0.0 and _are_open(recordings):
         rows = _find_row_times(shaper, found)
-        again = _find_as_stamped(replace(shaper, rows=rows)) if rows != AS_STAMPED else None
+        again = _find_as_stamped(replace(shaper, rows=rows), filtered) if rows != AS_STAMPED else None
         found = found if again is None else replace(again, rows=rows)
     return None if found == ASSUMED else found
 
@@ -104,7 +105,7 @@ def _find_row_times(shaper: Shaper, timing: Timing) -> RowTimes:
     return next((rows for rows in likely if likely[rows] > max(least, most - AS_LIKELY)), AS_STAMPED)
 
 
-def _find_as_stamped(shaper: Shaper) -> Timing | None:
+def _find_as_stamped(shaper: Shaper, filtered: bool) -> Timing | None:
     """Find when speeds were made, and how smoothed they are, by the times of rows that fits have.
 
     None where the motion comes too early for any timing.
@@ -116,7 +117,7 @@ def _find_as_stamped(shaper: Shaper) -> Timing | None:
     if timing is None:
         return None
     usual = (ASSUMED, OTHERS[0]) if _are_open(shaper.recordings) else ()
-    found = find_filter(shaper, (timing, *(one for one in usual if one != timing)))
+    found = find_filter(shaper, (timing, *(one for one in usual if one != timing))) if filtered else timing
     if found.filter:
         return _find_periods_instead(shaper, found) or _find_again_behind(shaper, found)
     return _find_periods(shaper, found) or found

@@ -23,6 +23,7 @@ from motor_identification.recording import Recording, check
 from motor_identification.reporting.curves import make_fit_curves
 from motor_identification.reporting.model_comparison import Identified
 from motor_identification.timing.shaped_fit import Shaper
+from motor_identification.timing.speed_filter import SpeedFilter
 from motor_identification.timing.speed_timing import TOO_EARLY, _find_instants, _is_likelier, find_timing
 from motor_identification.timing.timing import ASSUMED, INSTANT, OTHERS, Timing, list_readings
 from motor_identification.validation.hold_out import make_hold_out
@@ -136,7 +137,7 @@ def test_what_is_known_to_be_in_a_motor_tells_how_speeds_were_made(known: tuple[
 @pytest.mark.slow
 def test_a_diagnosis_finds_the_timing_again_where_a_lag_undoes_it(monkeypatch: pytest.MonkeyPatch) -> None:
     timings = iter((OTHERS[1], OTHERS[0]))
-    monkeypatch.setattr(diagnose_module, "find_timing_beside", lambda first, selection: next(timings))
+    monkeypatch.setattr(diagnose_module, "find_timing_beside", lambda *_, **__: next(timings))
     heard: list[float] = []
     found = diagnose([swept()], progress=lambda stage: heard.append(stage.share))
     assert heard == sorted(heard) and heard.count(0.95) > 3
@@ -147,10 +148,43 @@ def test_a_diagnosis_finds_the_timing_again_where_a_lag_undoes_it(monkeypatch: p
 @pytest.mark.slow
 def test_a_timing_by_which_more_is_left_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
     timings = iter((OTHERS[1], Timing(1.0, 9.5, "")))
-    monkeypatch.setattr(diagnose_module, "find_timing_beside", lambda first, selection: next(timings))
+    monkeypatch.setattr(diagnose_module, "find_timing_beside", lambda *_, **__: next(timings))
     found = diagnose([swept()])
     assert next(timings, None) is None and found.model.timing == OTHERS[1]
     assert {"supply_sag", "transport_delay"} < {finding.effect for finding in found.findings}
+
+
+@pytest.mark.parametrize(("gap", "above", "taken"), [(4.9, True, True), (5.1, True, False), (4.9, False, False)])
+def test_a_filter_behind_which_much_is_left_is_doubted(
+    monkeypatch: pytest.MonkeyPatch, gap: float, above: bool, taken: bool
+) -> None:
+    """Of times between edges a ripple was taken for one: with its true timing a ninth was left."""
+    smoothed = replace(ASSUMED, filter=SpeedFilter("twice", 0.3))
+    asked: list[bool] = []
+
+    def look(first: Any, selection: Any, filtered: bool = True) -> Timing:
+        asked.append(filtered)
+        return smoothed if filtered else OTHERS[0]
+
+    gaps = iter([(10.0, above), (gap, True)])
+
+    def select(*_: Any) -> Any:
+        left, over = next(gaps)
+        model = SimpleNamespace(held=SimpleNamespace(gap=left), above_floor=over)
+        return SimpleNamespace(selection=SimpleNamespace(model=model), effects=("torque_ripple",), finished=True)
+
+    def again(first: Any, timing: Timing, *_: Any) -> Any:
+        return SimpleNamespace(selection=None, timing=timing)
+
+    monkeypatch.setattr(diagnose_module, "find_timing_beside", look)
+    monkeypatch.setattr(diagnose_module, "_select_in_time", select)
+    monkeypatch.setattr(diagnose_module, "begin_as_timed", again)
+    limit = SimpleNamespace(begin_with=lambda _: None, begin_again=lambda: True)
+    reporter = SimpleNamespace(stopped=lambda: False, beyond=lambda _: None)
+    first = SimpleNamespace(selection=None)
+    start, _ = diagnose_module._select_as_timed(first, Request(), reporter, limit)  # type: ignore[arg-type]
+    assert start.timing == (OTHERS[0] if taken else smoothed)
+    assert asked == ([True, False] if above else [True])
 
 
 def test_what_was_said_is_believed() -> None:
