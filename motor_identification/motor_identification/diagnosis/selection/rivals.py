@@ -6,7 +6,7 @@ from dataclasses import replace
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import refit_without
 from motor_identification.diagnosis.candidate_model import Model
-from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
+from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold, predicts_far_worse
 from motor_identification.diagnosis.effect_test import (
     count_parameters,
     is_there_from_the_start,
@@ -113,12 +113,20 @@ def _drop_needless(selection: Selection, reporter: ProgressReporter) -> tuple[Se
         needless = {
             step.found.effect: step
             for step in begun.steps
-            if (one := lacking[step.found.effect]).likelihood >= most and (one.complete or not model.complete)
+            if (one := lacking[step.found.effect]).likelihood >= most and _leaves_what_it_should(one, model)
         }
         if not needless:
             return begun, lacking
         effect = max(needless, key=lambda name: lacking[name].likelihood)
         begun = begun.replace_step(needless[effect], None, lacking[effect])
+
+
+def _leaves_what_it_should(without: Model, model: Model) -> bool:
+    """Decide whether a model without a finding leaves what its random torque does, or hardly more than with it."""
+    if without.held.gap > thresholds.NO_MOTION_GAP * model.held.gap:
+        return False
+    worse = predicts_far_worse(without.held.gap, model.held.gap)
+    return without.complete or not (model.complete or worse)
 
 
 def _list_rivals(tests: Sequence[CandidateTest], effect: str, current: Model) -> tuple[str, ...]:

@@ -65,8 +65,10 @@ def _go_on_from(begin: Selection, plain: Selection, reporter: ProgressReporter) 
     if known and set(selection.model.effects) == known:
         return None
     selection = _select_both_ways(selection, reporter)
-    worse = predicts_far_worse(find_gap_less_gains(selection.model), plain.model.held.gap)
-    if worse and begin.model.held.seen:  # a gap that was fitted is no prediction
+    gap = find_gap_less_gains(selection.model)
+    worse = predicts_far_worse(gap, plain.model.held.gap)
+    beyond = gap > thresholds.NO_MOTION_GAP * plain.model.held.gap
+    if worse and begin.model.held.seen and not beyond:  # a gap that was fitted is no prediction
         worse = begun.model.likelihood - selection.model.likelihood > likelihood_threshold()
     return None if worse else selection
 

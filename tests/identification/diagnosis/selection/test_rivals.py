@@ -109,16 +109,26 @@ def test_what_the_torque_that_is_left_has_no_need_of_is_dropped(
     assert tuple(step.found.effect for step in left.steps) == kept == left.model.effects
 
 
-@pytest.mark.parametrize(("left", "kept"), [(1.0, 0), (3.0, 1)])
+@pytest.mark.parametrize(
+    ("with_it", "left", "random", "kept"),
+    [
+        (1.0, 1.0, False, 0),
+        (1.0, 3.0, False, 1),
+        (2.0, 2.0 * BELOW * thresholds.WORSE_GAP, False, 0),  # neither leaves what its torque does
+        (2.0, 2.0 * ABOVE * thresholds.WORSE_GAP, False, 1),
+        (2.0, 2.0 * BELOW * thresholds.NO_MOTION_GAP, True, 0),
+        (2.0, 2.0 * ABOVE * thresholds.NO_MOTION_GAP, True, 1),  # a torque in the place of the motor
+    ],
+)
 def test_a_torque_that_does_not_leave_what_it_should_drops_nothing(
-    monkeypatch: pytest.MonkeyPatch, left: float, kept: int
+    monkeypatch: pytest.MonkeyPatch, with_it: float, left: float, random: bool, kept: int
 ) -> None:
     """A breakaway that a slow torque was likelier than, beside which the gap rose to twice what that leaves."""
     before, effect = stub_model(9.0), "static_friction"
     step = SelectionStep(before, stub_test(effect, before, 1.0, 900.0), (), (), 0.99)
-    begun = replace(stub_selection(1.0, step), model=with_effects(stub_model(1.0, likelihood=50.0), effect))
-    without = with_effects(stub_model(left, likelihood=64.0))
-    assert begun.model.complete and without.complete is (left == 1.0)
+    begun = replace(stub_selection(1.0, step), model=with_effects(stub_model(with_it, likelihood=50.0), effect))
+    without = replace(with_effects(stub_model(left, likelihood=64.0)), random=random)
+    assert begun.model.complete is (with_it == 1.0) and without.complete is (random or left == 1.0)
     monkeypatch.setattr(module, "begin_beside_torque", lambda *_: begun)
     monkeypatch.setattr(module, "refit_without", lambda *_: without)
     monkeypatch.setattr(module, "try_effects", lambda *_: [])

@@ -49,6 +49,19 @@ def test_a_gap_that_was_fitted_is_no_prediction(
     assert (selected(monkeypatch, plain, begun, ended) is ended) is believed
 
 
+@pytest.mark.parametrize(("times", "believed"), [(0.99, True), (1.01, False)])
+def test_a_torque_in_the_place_of_the_motor_is_none(
+    times: float, believed: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """However likely: beside one of 3 % a log one way left 84 rad/s of which kv and ka alone leave 14."""
+    before = seen(stub_model(8.0), True)
+    step = step_of(stub_test("transport_delay", before, 4.0, 100.0))
+    plain = selection_of(seen(stub_model(4.0), True), step)
+    begun = selection_of(rescored(plain.model, likelihood=0.0), step)
+    ended = selection_of(seen(stub_model(times * thresholds.NO_MOTION_GAP * 4.0), True))
+    assert (selected(monkeypatch, plain, begun, ended) is ended) is believed
+
+
 @pytest.mark.parametrize(
     ("refused", "more", "torque", "believed"),
     [
