@@ -76,7 +76,7 @@ def _find_small_counts(values: Floats, levels: Floats) -> float:
     all_there = np.array_equal(np.rint(sizes / step), np.arange(1, len(sizes) + 1))
     changes = np.count_nonzero(np.abs(np.diff(values)) > same)
     often = changes >= (CHANGES_OF_ONE if len(sizes) == 1 else CHANGES_OF_EACH * len(sizes))
-    return step if all_there and often and _scatter(levels, step) < LEAST_SCATTER else 0.0
+    return step if all_there and often and measure_scatter(levels, step) < LEAST_SCATTER else 0.0
 
 
 def _find_blurred_counts(values: Floats) -> float:
@@ -136,7 +136,8 @@ def _best_step(levels: Floats, tried: Floats, score: Floats, count: int) -> floa
     """The step with the least scatter among those near 1/tried whose lattice is no chance; 0 without."""
     steps = dict.fromkeys(_refine(levels, 1.0 / float(one)) for one in tried[score > PEAK])  # neighbours end in one
     lattices = [step for step in steps if _is_lattice(levels, step, count)]
-    return min(lattices, key=lambda step: max(_scatter(levels, step), LEAST_SCATTER), default=0.0)  # or the first
+    # Of equals the first.
+    return min(lattices, key=lambda step: max(measure_scatter(levels, step), LEAST_SCATTER), default=0.0)
 
 
 def _mean_cosine(levels: Floats, tried: Floats) -> Floats:
@@ -170,13 +171,13 @@ def _refine(levels: Floats, step: float) -> float:
 def _is_lattice(levels: Floats, step: float, tried: int) -> bool:
     """Whether so many levels lie so near to multiples that no chance makes it, for so many steps tried."""
     places = len(np.unique(np.rint(levels / step)))
-    scatter = max(_scatter(levels, step), LEAST_SCATTER)
+    scatter = max(measure_scatter(levels, step), LEAST_SCATTER)
     if scatter > MOST_SCATTER or places < LEAST_PLACES:
         return False
     return -log(scatter * sqrt(tau * e)) * places > log(tried / CHANCE)  # levels of one place share their rounding
 
 
-def _scatter(levels: Floats, step: float) -> float:
-    """RMS distance of the levels from multiples, in steps."""
+def measure_scatter(levels: Floats, step: float) -> float:
+    """Measure the RMS distance of levels from multiples of a step, in steps."""
     phases = levels / step
     return sqrt(float(np.mean((phases - np.rint(phases)) ** 2)))

@@ -74,7 +74,7 @@ def find_timing(
         return None
     shaper = Shaper(recordings, estimate, restrict, _list_shaping(beside))
     if all(map(is_voltage_open, recordings)):
-        return UNTIL if held_until(shaper) else None
+        return _find_voltages(shaper)
     if any(recording.info.measurement is not Measurement.SPEED for recording in recordings):
         return None
     found = _find_as_stamped(shaper, filtered)
@@ -82,6 +82,16 @@ def find_timing(
         rows = _find_row_times(shaper, found)
         again = _find_as_stamped(replace(shaper, rows=rows), filtered) if rows != AS_STAMPED else None
         found = found if again is None else replace(again, rows=rows)
+    return None if found == ASSUMED else found
+
+
+def _find_voltages(shaper: Shaper) -> Timing | None:
+    """Find whether voltages held until their rows, of counts, and of speeds of said counts, maybe behind a filter."""
+    speeds = all(recording.info.measurement is Measurement.SPEED for recording in shaper.recordings)
+    found = find_filter(shaper, (ASSUMED,)) if speeds else ASSUMED
+    if found.filter:
+        shaper = replace(shaper, recordings=found.set_on(shaper.recordings))
+    found = replace(UNTIL, filter=found.filter) if held_until(shaper) else found
     return None if found == ASSUMED else found
 
 

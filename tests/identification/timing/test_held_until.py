@@ -9,6 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from plant import profiles, record
 from recorded import as_counts, as_speed
+from scipy.signal import lfilter
 from swinging import RUBBING
 from tiers import keep_fast
 
@@ -71,6 +72,17 @@ def test_speeds_of_said_counts_are_those_of_rows_as_counts_are(edges: int) -> No
     assert timing_of(said) is None
     found = timing_of(until(said))
     assert found == UNTIL if edges else found is None or found.lag <= ASSUMED.lag
+
+
+def test_speeds_of_said_counts_may_have_passed_a_filter_and_be_of_earlier_voltages() -> None:
+    exact = {"edges": 960, "sample_rate": 1.0 / ROW, "single_channel": False}
+    logged = assume(as_speed(record(RUBBING, *profiles.random(6.0, 20.0), **exact)[0]))  # type: ignore[arg-type]
+    smoothed = check(replace(logged, speed=np.round(lfilter([0.6], [1.0, -0.4], logged.speed), 6)))
+    assert is_voltage_open(smoothed)
+    found, early = timing_of(smoothed), timing_of(until(smoothed))
+    assert found is not None and found == replace(ASSUMED, filter=found.filter)
+    assert found.filter is not None and found.filter.number == pytest.approx(0.4)
+    assert early is not None and early == replace(UNTIL, filter=found.filter)
 
 
 def test_what_was_said_is_believed() -> None:

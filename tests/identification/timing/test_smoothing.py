@@ -135,6 +135,17 @@ def test_counted_speeds_lie_on_a_lattice_for_the_right_share(memory: float) -> N
     assert memory_of(smoothed(counted, memory)) == memory
 
 
+@pytest.mark.parametrize("share", [0.2, 0.4])
+def test_levels_that_any_share_leaves_whole_do_not_hide_the_one_that_was(share: float) -> None:
+    """Of two stairs seven and eight shares left a lattice of counts, by its scatter one of them at the steps too."""
+    speed = np.repeat([3.0, 8.0, 14.0, 9.0, 4.0], 100)
+    counts = np.rint(lfilter([0.1], [1.0, -0.9], 7.0 * speed)) * 0.383
+    log = without_count(as_speed(recorded(edges=96)))
+    log = replace(log.at_rows(np.arange(500)), speed=np.round(lfilter([1.0 - share], [1.0, -share], counts), 3))
+    left = _list_lattices([log], MEMORY)
+    assert share in left and len(left) <= 2  # 3/16 beside a fifth
+
+
 def test_counts_of_rows_of_any_length_lie_on_a_lattice_by_their_rows() -> None:
     counted = without_count(as_speed(recorded(edges=96)))
     random = np.random.default_rng(5)
