@@ -115,7 +115,7 @@ def _find_row_times(shaper: Shaper, timing: Timing) -> RowTimes:
     return next((rows for rows in likely if likely[rows] > max(least, most - AS_LIKELY)), AS_STAMPED)
 
 
-def _find_as_stamped(shaper: Shaper, filtered: bool) -> Timing | None:
+def _find_as_stamped(shaper: Shaper, filtered: bool = True) -> Timing | None:
     """Find when speeds were made, and how smoothed they are, by the times of rows that fits have.
 
     None where the motion comes too early for any timing.
