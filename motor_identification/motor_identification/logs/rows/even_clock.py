@@ -67,7 +67,7 @@ def _choose_clock(clocks: list[Floats], stamps: Floats, position: Floats | None,
     """Choose the clock [s] that positions (K,) go on with, whatever the stamps [s] say; None where they go by those."""
     if not clocks:
         return None
-    if position is None or _is_row_a_flank(position):
+    if position is None or not np.any(np.diff(position)) or _is_row_a_flank(position):
         return clocks[0] if wanted else None
     some = slice(0, MOST_ROWS)
     clock = _find_best_clock([one[some] for one in clocks], position[some])

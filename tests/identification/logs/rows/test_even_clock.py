@@ -59,6 +59,14 @@ def test_rows_that_came_when_they_say_are_left() -> None:
     assert restore_even_clock(exact) == (exact, [])
 
 
+def test_a_motor_that_stands_tells_of_no_clock() -> None:
+    """Nor does it say of the other runs that they are on one."""
+    still = late(0.2)
+    still = replace(still, motion=np.full(ROWS, 7.0))
+    assert restore_even_clock(still) == (still, [])
+    assert len(restore_even_clock(still, wanted=True)[1]) == 1
+
+
 def test_a_loop_that_runs_away_and_is_stamped_late_is_smoothed() -> None:
     """Neither its stamps nor an even clock are near to when its rows came."""
     random = np.random.default_rng(3)

@@ -10,6 +10,7 @@ from motor_identification.logs.form import CsvForm, Kind
 from motor_identification.logs.motion import read_motion
 from motor_identification.logs.rows.drive.command_sign import (
     AGAINST,
+    BEHIND,
     FEWEST_TURNS,
     take_off_commands_sign,
     take_off_commands_sign_of_speeds,
@@ -58,6 +59,20 @@ def test_some_counts_may_go_against_the_voltage(share: float, told: bool) -> Non
     against = np.arange(len(steps)) % round(1.0 / share) == 1
     turned = replace(signals, motion=np.cumsum(np.where(against, -steps, steps)))
     assert (take_off_commands_sign(turned) is not None) is told
+
+
+@pytest.mark.parametrize(("rows", "told"), [(0, True), (BEHIND, False)])
+def test_few_rows_in_a_long_log_that_turn_on_against_the_voltage_are_a_motors_own_sign(rows: int, told: bool) -> None:
+    """Four changes of the voltage in 1200 rows: all that goes on against it is less than a share of the counts."""
+    volts = np.repeat([4.0, -4.0, 4.0, -4.0, 4.0], 240)
+    way = np.sign(volts)
+    for turn_at in range(240, 1200, 240):
+        way[turn_at + 1 : turn_at + 1 + rows] *= -1.0
+    bare = counted(volts, turn(volts, 0.5))
+    signals = replace(bare, motion=np.cumsum(np.append(0.0, way[:-1]) * np.diff(bare.motion, prepend=0.0)))
+    steps, sign = np.diff(signals.motion), np.append(0.0, np.sign(volts))[1:-1]
+    assert np.sum(np.abs(steps[steps * sign < 0.0])) < AGAINST * np.sum(np.abs(steps))
+    assert (take_off_commands_sign(signals) is not None) is told
 
 
 @pytest.mark.parametrize(("turns", "told"), [(FEWEST_TURNS - 1, False), (FEWEST_TURNS + 2, True)])
