@@ -14,7 +14,7 @@ from motor_identification.logs.form import CsvForm, Kind
 Floats = NDArray[np.float64]
 
 CONSTANT = "(constant voltage)"  # column
-STANDS = 0.05  # of the largest speed
+STANDS = 0.05  # of its last speed: the largest may be that of a value which was read before a row's time
 RISEN = 0.63  # of its last speed: a time constant after the step
 LONGER = 3.0  # times what it takes to rise: no bridge and no network is as late as that, which would be a delay
 FEWEST_ROWS = 10  # that tell a motor which stands from a first row of zeros
@@ -30,7 +30,8 @@ def wait_for_motion(table: Table, form: CsvForm) -> Table:
     if form.voltage != CONSTANT or form.split or form.time is None:
         return table
     motion = table.numbers(form.motion)
-    standing = count_standing_rows(motion if form.kind is Kind.SPEED else np.diff(motion, prepend=motion[:1]))
+    speed = motion if form.kind is Kind.SPEED else _differentiate(motion, table.numbers(form.time))
+    standing = count_standing_rows(speed)
     if not standing:
         return table
     voltage = table.numbers(CONSTANT).copy()
@@ -45,8 +46,14 @@ def wait_for_motion(table: Table, form: CsvForm) -> Table:
 def count_standing_rows(speed: Floats) -> int:
     """Count the rows before a motor moves, of speeds (K,) in any unit; 0 where a delay may be as long."""
     size = np.abs(speed)
-    moves = size > STANDS * np.max(size, initial=0.0)
-    first = int(np.argmax(moves)) if moves.any() else 0
     last = float(np.median(size[-(len(size) // 4 + 1) :]))
+    moves = size > STANDS * (last or np.max(size, initial=0.0))
+    first = int(np.argmax(moves)) if moves.any() else 0
     risen = first + int(np.argmax(size[first:] >= RISEN * last))
     return first if first >= max(FEWEST_ROWS, LONGER * (risen - first)) else 0
+
+
+def _differentiate(motion: Floats, time: Floats) -> Floats:
+    """Differentiate positions (K,) by the time since the row before: many a step is long because rows are missing."""
+    steps, held = np.diff(motion, prepend=motion[:1]), np.diff(time, prepend=time[:1])
+    return np.asarray(np.divide(steps, held, out=np.zeros(len(steps)), where=held > 0.0))

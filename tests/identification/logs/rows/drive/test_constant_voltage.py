@@ -77,6 +77,21 @@ def test_a_log_that_begins_before_its_step(tmp_path: Path, position: bool) -> No
     assert any("stands in the first 10" in line for line in imported.motors[0].log.findings)
 
 
+@pytest.mark.parametrize("stale", [False, True])
+def test_a_motor_that_moves_from_the_first_row_does_not_stand_because_rows_are_missing(
+    tmp_path: Path, stale: bool
+) -> None:
+    """What it went meanwhile is more than twenty rows' way; it may be read before the pause, and stamped behind it."""
+    time = np.concatenate([3.0 * np.arange(30), 300.0 + 3.0 * np.arange(300)])
+    position = np.round(0.5 * time)
+    position[30] = position[29] + 2.0 if stale else position[30]
+    path = tmp_path / "log.csv"
+    path.write_text("\n".join(["time_ms,pos_deg", *(f"{t:g},{p:g}" for t, p in zip(time, position, strict=True))]))
+    imported = import_log(path, Said(constant_voltage=4.8))
+    assert not any("stands in the first" in line for line in imported.motors[0].log.findings + imported.findings)
+    assert {sample.voltage for run in imported.motors[0].log.runs for sample in run.samples} == {4.8}
+
+
 def test_the_motion_alone_is_a_log_of_one_voltage(tmp_path: Path) -> None:
     path = tmp_path / "log.mat"
     savemat(path, {"MotorA": 50.0 * (1.0 - np.exp(-np.arange(100) / 20.0))})
