@@ -17,6 +17,7 @@ CONSTANT = "(constant voltage)"  # column
 STANDS = 0.05  # of its last speed: the largest may be that of a value which was read before a row's time
 RISEN = 0.63  # of its last speed: a time constant after the step
 LONGER = 3.0  # times what it takes to rise: no bridge and no network is as late as that, which would be a delay
+COUNTS = 8.0  # as usual, of a position, over which its speed is averaged: one count in a row is no top speed
 FEWEST_ROWS = 10  # that tell a motor which stands from a first row of zeros
 
 
@@ -30,8 +31,10 @@ def wait_for_motion(table: Table, form: CsvForm) -> Table:
     if form.voltage != CONSTANT or form.split or form.time is None:
         return table
     motion = table.numbers(form.motion)
-    speed = motion if form.kind is Kind.SPEED else _differentiate(motion, table.numbers(form.time))
-    standing = count_standing_rows(speed)
+    if form.kind is Kind.SPEED:
+        standing = count_standing_rows(motion)
+    else:
+        standing = count_standing_rows(_differentiate(motion, table.numbers(form.time)), _count_slow_rows(motion))
     if not standing:
         return table
     voltage = table.numbers(CONSTANT).copy()
@@ -43,14 +46,25 @@ def wait_for_motion(table: Table, form: CsvForm) -> Table:
     return replace(table, cells={**table.cells, CONSTANT: voltage}, notes=(*table.notes, note))
 
 
-def count_standing_rows(speed: Floats) -> int:
-    """Count the rows before a motor moves, of speeds (K,) in any unit; 0 where a delay may be as long."""
+def count_standing_rows(speed: Floats, slow: int = 1) -> int:
+    """Count the rows before a motor moves, of speeds (K,) in any unit; 0 where a delay may be as long.
+
+    slow: rows over which speeds are averaged to see them rise.
+    """
     size = np.abs(speed)
-    last = float(np.median(size[-(len(size) // 4 + 1) :]))
+    smooth = np.asarray(np.convolve(size, np.full(slow, 1.0 / slow))[: len(size)])
+    last = float(np.median(smooth[-(len(size) // 4 + 1) :]))
     moves = size > STANDS * (last or np.max(size, initial=0.0))
     first = int(np.argmax(moves)) if moves.any() else 0
-    risen = first + int(np.argmax(size[first:] >= RISEN * last))
-    return first if first >= max(FEWEST_ROWS, LONGER * (risen - first)) else 0
+    rise = max(int(np.argmax(smooth[first:] >= RISEN * last)) - (slow - 1) // 2, 0)
+    return first if first >= max(FEWEST_ROWS, LONGER * rise) else 0
+
+
+def _count_slow_rows(motion: Floats) -> int:
+    """Count the rows in which positions (K,) usually go on by enough of their steps to tell a speed."""
+    steps = np.abs(np.diff(motion))
+    steps = steps[steps > 0.0]
+    return max(1, min(len(motion) // 4, round(COUNTS * steps.min() * len(motion) / steps.sum()))) if len(steps) else 1
 
 
 def _differentiate(motion: Floats, time: Floats) -> Floats:

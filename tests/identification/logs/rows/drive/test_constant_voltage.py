@@ -77,6 +77,18 @@ def test_a_log_that_begins_before_its_step(tmp_path: Path, position: bool) -> No
     assert any("stands in the first 10" in line for line in imported.motors[0].log.findings)
 
 
+@pytest.mark.parametrize(("late", "stands"), [(0.03, False), (1.0, True)])
+def test_a_slow_motor_of_coarse_counts_has_not_risen_with_its_first(tmp_path: Path, late: float, stands: bool) -> None:
+    """Less than a count a row, a time constant of 60 ms: rows are 4 ms apart, and 30 ms may be a delay."""
+    time = 0.004 * np.arange(500)
+    since = np.maximum(time - late, 0.0)
+    position = np.floor(150.0 * (since - 0.06 * (1.0 - np.exp(-since / 0.06))))
+    path = tmp_path / "log.csv"
+    path.write_text("\n".join(["time_s,pos_deg", *(f"{t:g},{p:g}" for t, p in zip(time, position, strict=True))]))
+    findings = import_log(path, Said(constant_voltage=1.5)).motors[0].log.findings
+    assert any("stands in the first" in line for line in findings) is stands
+
+
 @pytest.mark.parametrize("stale", [False, True])
 def test_a_motor_that_moves_from_the_first_row_does_not_stand_because_rows_are_missing(
     tmp_path: Path, stale: bool
