@@ -59,3 +59,20 @@ def test_a_motor_that_is_as_late_all_along_had_its_supply(kind: Kind, dead_time:
     motion = speed if kind is Kind.SPEED else np.floor(np.cumsum(speed) / 2.0)
     found, said = drop_unpowered_start(logged(volts, motion), replace(SPEED, kind=kind))
     assert (said != []) is told and (len(found) < len(k)) is told
+
+
+@pytest.mark.parametrize(("still", "told"), [(55, False), (100, True)])
+def test_a_chirp_whose_motor_starts_at_the_most_voltage_until_then_had_its_supply(still: int, told: bool) -> None:
+    """It breaks away while the voltage rises, and runs on through the zeros; behind the top it would have started."""
+    k = np.arange(1500)
+    volts = 5.0 * np.sin(2.0 * np.pi * (k / 400.0 + k**2 / 1e6))
+    found, said = drop_unpowered_start(late(still, volts), SPEED)
+    assert (said != []) is told and (len(found) < len(k)) is told
+
+
+@pytest.mark.parametrize(("level", "told"), [(4.0, False), (2.0, True)])
+def test_stairs_at_whose_highest_step_yet_a_motor_starts(level: float, told: bool) -> None:
+    """A few rows behind the step: 1, 2, 3 V and 4 V, and down again; or at 2 V, behind 3 V at which it stood."""
+    volts = np.repeat([1.0, 2.0, 3.0, level, 1.4, 1.0, 2.0], 100)
+    found, said = drop_unpowered_start(late(305, volts), SPEED)
+    assert (said != []) is told and (len(found) < len(volts)) is told
