@@ -27,6 +27,7 @@ FEWEST_COUNTS = 8  # of an encoder's turn that is made up: slots that are told a
 # lines has on such a motor. More would make a jump of every reversal, and are finer than any model.
 COUNTS_A_ROW = 30.0
 FINE = (360, 1_000_000)  # counts a turn that stand for a position without steps: at least, at most
+PRINTED = 1e-8  # of a position's unit: how far its turns may be from numbers of 32 bits, printed with 9 decimals
 SURE = 3.0  # standard errors within which a step is taken for a simple share of so many turns at most:
 MOST_TURNS = 16
 
@@ -64,19 +65,27 @@ def count_size(form: CsvForm, values: Floats, voltage: Floats, levels: Floats | 
         return _whole(form, turn / form.edges_per_revolution, form.edges_per_revolution)
     way = float(np.quantile(np.abs(np.diff(values)), 0.9))  # from row to row
     lattice = find_position_lattice(values) or _within_a_turn(levels, values, turn)
-    if lattice and turn / lattice.step < MOST_EDGES and not _is_rounding(lattice, values):
+    if lattice and turn / lattice.step < MOST_EDGES and not _is_rounding(lattice, values, 2.0 * pi / unit):
         return _seen(form, lattice, turn, way <= COUNTS_A_ROW * lattice.step and lattice.holds(values))
     noise = estimate_white_noise(values, voltage)
     coarse = max(noise, way / COUNTS_A_ROW)
     return _fine(form, turn, coarse, f" (assumed: the values show no steps, and noise of {noise:.2g} {form.unit})")
 
 
-def _is_rounding(lattice: Lattice, values: Floats) -> bool:
-    """Whether a lattice is that of numbers of 32 bits, as which positions, shape (K,), were kept: no encoder's."""
+def _is_rounding(lattice: Lattice, values: Floats, turn: float) -> bool:
+    """Whether a lattice is that of numbers of 32 bits, as which positions, shape (K,), were kept: no encoder's.
+
+    Or their turns were, and somebody made radians of them and printed these.
+    """
+    return _are_short(values, lattice.step, 0.0) or _are_short(values / turn, lattice.step / turn, PRINTED / turn)
+
+
+def _are_short(numbers: Floats, step: float, off: float) -> bool:
+    """Whether numbers (K,) on a lattice of a step are of 32 bits but for so much, which is less than they resolve."""
     with np.errstate(over="ignore"):
-        short = values.astype(np.float32)
-    finest = 2.0 * float(np.spacing(np.max(np.abs(short))))
-    return lattice.step < finest and bool(np.all(short == values))
+        short = numbers.astype(np.float32)
+    resolved = float(np.spacing(np.max(np.abs(short))))
+    return step < 2.0 * resolved and off < resolved and bool(np.all(np.abs(short - numbers) <= off))
 
 
 def _within_a_turn(levels: Floats | None, values: Floats, turn: float) -> Lattice | None:

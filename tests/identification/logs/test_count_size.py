@@ -98,3 +98,13 @@ def test_the_rounding_of_numbers_of_32_bits_is_no_encoders_step(far: float, seen
     assert (count.edges == 2**17) == seen and count.stands_for != seen
     exact = far + np.cumsum(np.random.default_rng(5).integers(-40, 90, 400)) / 1e5
     assert not count_size(turns, exact, np.zeros(400)).stands_for
+
+
+@pytest.mark.parametrize(("far", "seen"), [(51.0, False), (0.9, True)])
+def test_turns_of_32_bits_that_are_printed_as_radians_show_no_encoders_step(far: float, seen: bool) -> None:
+    """ODrive keeps turns, and a ROS driver makes radians of them: 262,144 a turn are the last digits at fifty."""
+    radians = CsvForm("t", "u", "y", Kind.POSITION, "rad")
+    turns = np.float32(far + np.cumsum(np.random.default_rng(5).integers(-40, 90, 400)) / 2.0**18)
+    printed = np.round(2.0 * np.pi * turns.astype(np.float64), 9)
+    count = count_size(radians, printed, np.zeros(400))
+    assert (count.edges == 2**18) == seen and count.stands_for != seen
