@@ -1,6 +1,7 @@
 """Tell the quantity of a column by the words of its name and by its unit."""
 
 from motor_identification.logs.columns.vocabulary import (
+    INPUTS,
     MOVES,
     OUTPUTS,
     SHARES,
@@ -9,8 +10,13 @@ from motor_identification.logs.columns.vocabulary import (
     VOLTAGE_WORDS,
     WORDS,
     Quantity,
+    words_of,
 )
 
+# What drives, in volts or not, by words that say neither; and words that say a share of the supply whatever is beside
+# them, which power in watts and a controller's effort do not.
+_ANY_DRIVE = INPUTS | words_of("u applied sine sinewave chirp ramp stair stairs staircase prbs aprbs sweep excitation")
+_DUTIES = SHARES - words_of("power effort esforço esforco esfuerzo")
 _ORDERS = frozenset(["command", "cmd", "commanded"])  # of a speed or a position: what it should be
 _PULSES = frozenset(["esc", "signal", "pwm", "throttle", "pulse", "width", "command", "cmd", "output"])
 _TESTS = frozenset(["test", "trial"])  # whose numbers are no times, however evenly they go on
@@ -46,7 +52,8 @@ def tell_quantity(words: tuple[str, ...], unit: str) -> Quantity | None:
     if _is_speed_after_all(words, told):
         return Quantity.SPEED
     if Quantity.VOLTAGE in told and Quantity.DUTY in told:
-        return Quantity.VOLTAGE
+        volts = WORDS[Quantity.VOLTAGE] & set(words) - _ANY_DRIVE
+        return Quantity.DUTY if _DUTIES & set(words) and not volts else Quantity.VOLTAGE  # `inputDutyCycle`, `u_pwm`
     return _quantity_of_an_output(words, told) or (told[0] if told else None)
 
 

@@ -20,6 +20,11 @@ from motor_identification.logs.columns.vocabulary import Quantity
         ("output", "", Quantity.DUTY),
         ("pwm", "count", Quantity.DUTY),
         ("pwm", "rev", Quantity.DUTY),  # of the other way
+        ("input duty cycle", "", Quantity.DUTY),
+        ("u pwm", "", Quantity.DUTY),
+        ("pwm voltage", "", Quantity.VOLTAGE),
+        ("input power", "", Quantity.VOLTAGE),  # which may be one of volts as well as a share
+        ("input command", "", Quantity.VOLTAGE),
         ("r speed", "", Quantity.SPEED),  # the right one
         ("yaw", "", Quantity.OTHER),
         ("yaw velocity", "", Quantity.SPEED),  # a joint
