@@ -40,3 +40,19 @@ def test_a_few_rows_tell_nothing() -> None:
     for rows, turned in ((19, False), (20, True)):
         few = replace(signals(-VOLTAGE), runs={"": slice(0, 200)}).only(np.arange(200) < rows)
         assert bool(turn_round(few, True)[1]) == turned
+
+
+def potentiometer(speed: float, seed: int) -> Signals:
+    """A motor that follows its voltage at so much a row and a volt, as a converter with noise of 40 sees it."""
+    random, count = np.random.default_rng(seed), 1000
+    voltage, unknown = np.repeat([4.0, -3.0, 6.0, -6.0], 250), np.full(count, np.nan)
+    motion = np.cumsum(speed * voltage) + 40.0 * random.standard_normal(count)
+    time = np.arange(count) * 10_000_000
+    return Signals(Path("log.csv"), np.arange(count), time, voltage, motion, unknown, unknown, {"": slice(0, count)})
+
+
+@pytest.mark.parametrize(("speed", "turned"), [(-0.8, True), (0.8, False), (0.0, False)])
+def test_a_position_with_much_noise_shows_over_many_rows_where_it_goes(speed: float, turned: bool) -> None:
+    for seed in range(20):
+        found, said = turn_round(potentiometer(speed, seed), False)
+        assert bool(said) is turned and np.array_equal(found.motion, potentiometer(speed, seed).motion) is not turned
