@@ -9,7 +9,7 @@ from motor_identification.logs.columns.clock import read_clock, runs_forward
 from motor_identification.logs.columns.heading import read_heading
 from motor_identification.logs.columns.vocabulary import UNIT_BY_SPELLING, Quantity
 from motor_identification.logs.csv.sparse import mark_empty, mark_rare_senders
-from motor_identification.logs.csv.table import GARBLED, Table
+from motor_identification.logs.csv.table import GARBLED, Table, name_column
 
 _WITH_UNIT = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?) ?([^\W\d_][\w/]{0,9}|%|°)$")
 _LOOKED_AT = 200  # cells that tell whether a column holds numbers at all
@@ -50,7 +50,7 @@ def _leave_out_garbled(table: Table) -> Table:
     if first is None or lost > GARBLED * len(table):
         return table
     row, name = first
-    where = f"line {table.lines[row]}, column {name}: '{table.text(name, row)[:20]}'"
+    where = f"line {table.lines[row]}, {name_column(name)}: '{table.text(name, row)[:20]}'"
     rows = f"1 row with a cell that is no number ({where})"
     if lost > 1:
         rows = f"{lost} rows with a cell that is no number (the first is {where})"

@@ -139,7 +139,7 @@ class Table:
         cell = self.text(column, row)
         what = f"'{cell[:40]}' is not a number" if cell else "the cell is empty"
         return RecordingError(
-            f"{self.path}, line {self.lines[row]}, column {column}: {what}; correct or remove that line."
+            f"{self.path}, line {self.lines[row]}, {name_column(column)}: {what}; correct or remove that line."
         )
 
 
@@ -156,3 +156,8 @@ def _exact_nanoseconds(cell: str, unit: int) -> int:
     if not time.is_finite() or abs(time) > _LARGEST_TIME:
         raise ValueError(cell)
     return int(time.to_integral_value())
+
+
+def name_column(column: str) -> str:
+    """Name a column in a sentence; where a file names none, `column 2` is its name already."""
+    return column if column.startswith("column ") else f"column {column}"

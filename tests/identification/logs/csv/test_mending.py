@@ -23,6 +23,13 @@ def test_one_row_of_a_hundred_may_be_garbled_and_two_may_not() -> None:
         assert len(mended.notes) == (left < 200)
 
 
+def test_a_column_without_a_name_of_its_own_is_named_once() -> None:
+    good = [str(k) for k in range(200)]
+    for name, said in (("column 2", "line 12, column 2: 'x'"), ("u", "line 12, column u: 'x'")):
+        (note,) = mend_table(made(t=good, **{name: [*good[:10], "x", *good[11:]]})).notes
+        assert note == f"Left out: 1 row with a cell that is no number ({said})."
+
+
 def test_columns_of_words_and_of_other_things_cost_no_row() -> None:
     good = [str(k) for k in range(200)]
     mended = mend_table(made(t=good, mode=["run"] * 199 + [""], error=["0"] * 199 + ["x"], text=["a"] * 200))
