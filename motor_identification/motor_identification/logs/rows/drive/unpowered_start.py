@@ -39,8 +39,10 @@ def _breaks_away(volts: Floats, still: int) -> bool:
     """Whether a motor starts in a row at more voltage, shape (K,), than there was before: friction held it until then.
 
     Through the zeros of a chirp it runs on at less. Measured: gearmotors that start at 1.6 and 2.0 V and run at 0.8 V.
+    A controller takes its voltage away in the row that shows the first count, and gives it back.
     """
-    return bool(volts[still] >= np.max(volts[:still]) and np.argmax(volts[: still + 1]) >= still - ROWS)
+    before, behind = volts[:still], volts[still : still + ROWS]
+    return bool(np.max(behind) >= np.max(before) and np.argmax(before) >= still - ROWS)
 
 
 def _is_as_late_later(voltage: Floats, motion: Floats, kind: Kind, still: int) -> bool:

@@ -76,3 +76,14 @@ def test_stairs_at_whose_highest_step_yet_a_motor_starts(level: float, told: boo
     volts = np.repeat([1.0, 2.0, 3.0, level, 1.4, 1.0, 2.0], 100)
     found, said = drop_unpowered_start(late(305, volts), SPEED)
     assert (said != []) is told and (len(found) < len(volts)) is told
+
+
+@pytest.mark.parametrize(("rising", "told"), [(True, False), (False, True)])
+def test_a_controller_that_takes_its_voltage_away_at_the_first_count_had_its_supply(rising: bool, told: bool) -> None:
+    """It winds up against friction until its motor breaks away; one that stood at its limit for long had no supply."""
+    volts = np.concatenate([np.linspace(0.0, 3.0, 100), np.linspace(3.0, 3.3, 20), np.full(400, 1.4)])
+    if not rising:
+        volts[20:100] = 3.4
+    volts[100] = 0.2
+    found, said = drop_unpowered_start(late(100, volts), SPEED)
+    assert (said != []) is told and (len(found) < len(volts)) is told
