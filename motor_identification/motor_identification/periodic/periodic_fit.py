@@ -12,7 +12,12 @@ from motor_identification.estimation.parameter_space import map_theta, set_value
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.measurement.measured_angle import Track
 from motor_identification.periodic.angle_load import find_angle_load
-from motor_identification.periodic.ripple_spectrum import USUAL_RIPPLE, find_ripples, fit_ripple
+from motor_identification.periodic.ripple_spectrum import (
+    USUAL_RIPPLE,
+    explain_runs_by_chance,
+    find_ripples,
+    fit_ripple,
+)
 from motor_identification.periodic.run_alignment import Aligned, align_runs
 from motor_identification.periodic.simulated_angle_fit import fit_on_simulated_angle
 from motor_identification.recording import Floats, Integers
@@ -140,20 +145,28 @@ def estimate_phases(bare: Estimate, effect: str, cycles: float, tracks: Tracks =
         ripple = fit_ripple(bare, tracks, cycles)
         return Start(ripple.tracks, {"ripple_phase": np.array(ripple.phases)})
     wave = _start_eccentricity(bare, tracks, 0.0)
+    assert wave is not None
     return Start(wave.tracks, {"eccentricity_phase": wave.values["eccentricity_phase"]})
 
 
-def _start_eccentricity(bare: Estimate, tracks: Tracks, _least: float) -> Start:
-    """Fit the first harmonic of what an estimate leaves over the angle, with every run's slips, by least squares."""
-    waves, straightened = [], []
+def _start_eccentricity(bare: Estimate, tracks: Tracks, least: float) -> Start | None:
+    """Fit the first harmonic of what an estimate leaves over the angle, with every run's slips, by least squares.
+
+    None where it explains no more than `least` and what so many runs, each turned as it fits best, do by chance.
+    """
+    waves, straightened, explained = [], [], 0.0
     for data, track, increments in zip(bare.problem.intervals, tracks, bare.increments, strict=True):
         angle, root = data.gear * track.at(data.time), 1.0 / np.sqrt(data.duration)
         sine, cosine = (
             np.diff(shape(angle)[np.stack([data.first, data.last])], axis=0)[0] * root for shape in (np.sin, np.cos)
         )
-        aligned = align_wave(sine, cosine, -increments * root, track.run_at(data.time[data.first]), data)
+        run = track.run_at(data.time[data.first])
+        aligned = align_wave(sine, cosine, -increments * root, run, data)
+        explained += aligned.explained - explain_runs_by_chance(int(run.max()), data)
         waves.append(data.gear * aligned.weight)
         straightened.append(track.slipped(aligned.slips / data.gear))
+    if least > 0.0 and explained <= least:
+        return None
     size = np.full(len(waves), np.mean(np.abs(waves)))
     phase = np.asarray(np.angle(waves), dtype=np.float64)
     return Start(tuple(straightened), {"eccentricity": size, "eccentricity_phase": phase})

@@ -120,10 +120,18 @@ def _find_visible(runs: Sequence[WhitenedRun], low: float, high: float, most: fl
 
 def _explained_by_chance(run: WhitenedRun, data: Intervals) -> float:
     """How much the best line explains of one recording's white noise, and a little more."""
-    last = int(run.course.run.max())
+    base = SLIP_CHANCE * SLIP_CHANCE_BASE if data.slot > 0.0 else LINE_CHANCE
+    return base + explain_runs_by_chance(int(run.course.run.max()), data)
+
+
+def explain_runs_by_chance(last: int, data: Intervals) -> float:
+    """Compute how much of white noise counted runs, up to a last one's number, explain as each is turned to fit best.
+
+    Measured: 45 and 74 of a disc with nothing on it, in 70 and 101 runs between rows that were missing.
+    """
     if data.slot > 0.0:
-        return SLIP_CHANCE * (last + SLIP_CHANCE_BASE)
-    return LINE_CHANCE + (0.0 if data.counts_both_ways else PHASE_CHANCE * last)
+        return SLIP_CHANCE * last
+    return 0.0 if data.counts_both_ways else PHASE_CHANCE * last
 
 
 def _apart(cycles: Sequence[float], width: float) -> list[float]:

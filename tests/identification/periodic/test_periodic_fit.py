@@ -16,10 +16,11 @@ from motor_identification.estimation.parameter_space import make_unknowns, map_t
 from motor_identification.estimation.problem import make_problem
 from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.measurement.intervals import Intervals
-from motor_identification.measurement.measured_angle import make_track
+from motor_identification.measurement.measured_angle import Track, make_track
+from motor_identification.periodic import periodic_fit
 from motor_identification.periodic.periodic_fit import add_periodic_effect, align_wave, measure_angles
-from motor_identification.periodic.ripple_spectrum import find_ripples
-from motor_identification.periodic.run_alignment import align_runs
+from motor_identification.periodic.ripple_spectrum import PHASE_CHANCE, SLIP_CHANCE, find_ripples
+from motor_identification.periodic.run_alignment import Aligned, align_runs
 from motor_identification.recording import Floats, Recording, check
 from motor_model.effects import INDEX
 from motor_model.parameters import PAPER_KA, PAPER_KV
@@ -214,6 +215,28 @@ def test_an_eccentric_disc_is_seen_in_the_speeds_that_were_counted_on_it() -> No
     )
     fit = identify([recording], Request(("encoder_eccentricity",)))
     assert fit.parameters.values["eccentricity"] == pytest.approx(0.04, rel=0.05)
+
+
+@pytest.mark.parametrize(
+    ("slot", "both", "chance"), [(0.0, False, PHASE_CHANCE), (0.1, False, SLIP_CHANCE), (0.0, True, 0.0)]
+)
+@pytest.mark.parametrize("side", [0.99, 1.01])
+def test_runs_that_each_turn_as_it_fits_best_explain_by_chance(
+    slot: float, both: bool, chance: float, side: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of speeds of which 3 % of the rows were missing an eccentric disc was named with certainty, and there is none."""
+    runs, least = 101, 5.0
+    data = SimpleNamespace(slot=slot, counts_both_ways=both, gear=1.0, time=np.arange(runs + 1.0))
+    data.first, data.last, data.duration = np.arange(runs), np.arange(1, runs + 1), np.ones(runs)
+    track = SimpleNamespace(at=lambda time: time, run_at=lambda time: np.arange(runs), slipped=lambda slips: None)
+    problem = SimpleNamespace(intervals=(data,))
+    bare = cast(Estimate, SimpleNamespace(problem=problem, increments=(np.zeros(runs),)))
+    explained = side * (chance * (runs - 1) + least)
+    aligned = Aligned(0.01 + 0j, np.zeros(runs), explained)
+    monkeypatch.setattr(periodic_fit, "align_wave", lambda *_: aligned)
+    start = periodic_fit._start_eccentricity(bare, (cast(Track, track),), least)
+    assert (start is not None) is (side > 1.0)
+    assert periodic_fit._start_eccentricity(bare, (cast(Track, track),), 0.0) is not None  # asked for by name
 
 
 TORQUE = {"random_torque": 0.1, "random_torque_time": 0.05, "random_torque_seed": 3.0}
