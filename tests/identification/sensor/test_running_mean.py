@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 from motor_identification.recording import Floats
 from motor_identification.sensor.running_mean import FEWEST_WINDOWS, find_running_mean, take_single_rows
@@ -89,3 +90,18 @@ def test_no_single_rows_are_had_of_others() -> None:
     means = running(10, 300.0)
     assert take_single_rows(means + np.random.default_rng(0).standard_normal(len(means)), 10) is None
     assert take_single_rows(means, 7) is None and take_single_rows(means[:19], 10) is None
+
+
+@pytest.mark.parametrize("begin", [1, 2, 40])
+def test_a_quick_motor_that_starts_within_its_first_window_is_had_back(begin: int) -> None:
+    """Rows of it are faster than the mean of any window, under a command that changes more often than that."""
+    random = np.random.default_rng(4)
+    command = np.repeat(random.uniform(-35.0, 35.0, 100), 5)
+    single = np.rint(lfilter([0.45], [1.0, -0.55], command)).astype(np.int64)
+    single[:begin] = 0
+    counts = np.convolve(single, np.ones(10, np.int64))[: len(single)]
+    assert np.max(np.abs(single)) > np.max(np.abs(counts)) / 10.0 + 2.0
+    speeds = 0.41666 * counts
+    assert find_running_mean(speeds) == 10
+    taken = take_single_rows(speeds, 10)
+    assert taken is not None and taken / 4.1666 == pytest.approx(single, abs=1e-6)
