@@ -20,7 +20,7 @@ from motor_model.errors import MotorError
 from motor_msgs.msg import MotorInfo, MotorSpeed
 from motor_ros import qos
 from motor_ros.clocks.steady_timer import steady_timer
-from motor_ros.graph.players import find_playing_caller
+from motor_ros.graph.callers import Callers
 from motor_ros.messages import info_of, sample_of
 from motor_ros.parameters import declare
 from motor_ros.run import quick_executor, run
@@ -43,7 +43,8 @@ class MotorControl(Node):
         self.create_subscription(MotorSpeed, "motor/speed", self._on_speed, qos.newest(qos.SPEED))
         self.create_subscription(MotorInfo, "motor/info", self._on_info, qos.INFO)
         self._demands = Demands(self, self._settings.config)
-        self.create_service(Trigger, "motor/reset", lambda _, response: self._on_reset(response))
+        resets = self.create_service(Trigger, "motor/reset", lambda _, response: self._on_reset(response))
+        Callers(self).guard(resets, lambda _: bool(self._state.latched), _refuse)
         self.create_service(Trigger, "motor/release", lambda _, response: self._on_release(response))
         steady_timer(self, WATCH_EVERY, self._on_watch)
         steady_timer(self, LOOK_EVERY, lambda: self._settings.bar(self._neighbours.crossed()))
@@ -83,9 +84,6 @@ class MotorControl(Node):
         self._state = self._demands.poll(self._settings.config, self._state)
 
     def _on_reset(self, response: Trigger.Response) -> Trigger.Response:
-        if played := find_playing_caller(self, "motor/reset"):
-            response.message = played
-            return response
         response.message, self._state = controller.reset(self._state, time.monotonic())
         response.success = not self._state.latched
         return response
@@ -112,6 +110,11 @@ class MotorControl(Node):
         if why and self._state.demand is not None:
             self._state = controller.stop(self._state, why, now)
         return SetParametersResult(successful=True)
+
+
+def _refuse(_: Trigger.Request, response: Trigger.Response, why: str) -> Trigger.Response:
+    response.success, response.message = False, why
+    return response
 
 
 def main(args: list[str] | None = None) -> int:

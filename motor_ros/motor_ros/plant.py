@@ -15,9 +15,9 @@ from motor_msgs.msg import MotorInfo, MotorSpeed, MotorVoltage
 from motor_ros import qos
 from motor_ros.clocks.hold_ups import HoldUps
 from motor_ros.gate import AWAY, CONFLICT, OFF, STOPPED, Gate
+from motor_ros.graph.callers import Callers
 from motor_ros.graph.commanders import Commanders
 from motor_ros.graph.other_plant import OtherPlant
-from motor_ros.graph.players import find_playing_caller
 from motor_ros.graph.publishers import count_publishers
 from motor_ros.messages import diagnostic_message, info_message, speed_message, stamp_age
 from motor_ros.numbered_input import Arrival, NumberedInput
@@ -31,6 +31,7 @@ OLD = (
     "{:.3g} V on motor/voltage is stamped {:.3g} s {}, as what is played from a recording: it is not obeyed. If it is "
     "yours, set both computers' clocks, or leave the stamp empty."
 )
+JUST_NOW = "Just now, {}: look, then call again."
 UNHEARD = "References are published on {} and nobody hears them: start motor_control in this namespace."
 
 
@@ -71,7 +72,8 @@ class Plant:
             commanders=self._commanders,
             counts=lambda message, arrival: self.gate.goes_on(message.header.frame_id, arrival.number, arrival.at),
         )
-        node.create_service(SetBool, "motor/enable", self._on_enable)
+        service = node.create_service(SetBool, "motor/enable", self._on_enable)
+        self._enabling = Callers(node).guard(service, self._would_switch_on, _refuse)
         self.publish_info()
 
     def now(self) -> int:
@@ -97,6 +99,8 @@ class Plant:
         """Switch the output off until motor/enable; `why` is said. motor: for what the motor did."""
         if self.gate.stopped != why:
             self._node.get_logger().error(STOPPED.format(why))
+        if self.gate.enabled or self.gate.stopped != why:
+            self._enabling.refuse_waiting(JUST_NOW.format(why))
         self.gate = self.gate.stop_motor(why, time.monotonic_ns()) if motor else self.gate.stop(why)
 
     def recount(self) -> None:
@@ -181,21 +185,28 @@ class Plant:
         self._old, self._old_at = OLD.format(message.voltage, abs(age), "ago" if age > 0.0 else "ahead"), now
         return True
 
+    def _would_switch_on(self, request: SetBool.Request) -> bool:
+        return bool(request.data) and not (self.gate.enabled and self.gate.begun)  # not for who calls again and again
+
     def _on_enable(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
         was_on = self.gate.enabled
         self._changed()  # a stop that is due comes before what is asked for now
         now = time.monotonic_ns()
         refusal = (self.gate.refusal(now) or self._find_others(now) or self._refusal()) if request.data else ""
-        if request.data and not (refusal or (was_on and self.gate.begun)):  # not for who calls again and again
-            refusal = find_playing_caller(self._node, "motor/enable")
         self.gate = self.gate.call(now) if request.data else self.gate
         if request.data and was_on and not self.gate.enabled:
-            refusal = f"Just now, {self.gate.stopped}: look, then call again."
+            refusal = JUST_NOW.format(self.gate.stopped)
         if refusal:
-            response.success, response.message = False, f"The output stays off. {refusal}"
-            return response
+            return _refuse(request, response, refusal)
+        if not request.data:
+            self._enabling.refuse_waiting(JUST_NOW.format("it was switched off by motor/enable"))
         self.gate = self.gate.enable(request.data)
         self._changed()
         response.success = True
         response.message = "The output is on." if request.data else OFF
         return response
+
+
+def _refuse(_: SetBool.Request, response: SetBool.Response, why: str) -> SetBool.Response:
+    response.success, response.message = False, f"The output stays off. {why}"
+    return response

@@ -29,6 +29,30 @@ def play(name: str, topic: str, recorded: bool) -> Iterator["subprocess.Popen[by
         process.wait()
 
 
+def call_at_once(name: str, service: str) -> str:
+    """Have a new node of this name call a service as soon as it can, and end: what it was answered."""
+    environment = {**ENVIRONMENT, "PYTHONPATH": os.pathsep.join(sys.path)}
+    words = [sys.executable, __file__, name, service, "calls"]
+    return subprocess.run(words, env=environment, check=True, capture_output=True, text=True).stdout.strip()
+
+
+def _call(name: str, service: str) -> None:
+    import rclpy
+    from std_srvs.srv import SetBool
+
+    from motor_ros.loopback import stay_on_this_machine
+
+    stay_on_this_machine()
+    rclpy.init()
+    node = rclpy.create_node(name, enable_rosout=False, start_parameter_services=False)
+    client = node.create_client(SetBool, service)
+    while not client.service_is_ready():
+        time.sleep(1e-4)
+    answer = client.call_async(SetBool.Request(data=True))
+    rclpy.spin_until_future_complete(node, answer)
+    print(answer.result().message)
+
+
 def _run(name: str, topic: str, recorded: bool) -> None:
     import rclpy
     from std_msgs.msg import Float64
@@ -52,4 +76,7 @@ def _run(name: str, topic: str, recorded: bool) -> None:
 
 
 if __name__ == "__main__":
-    _run(sys.argv[1], sys.argv[2], bool(sys.argv[3]))
+    if sys.argv[3] == "calls":
+        _call(sys.argv[1], sys.argv[2])
+    else:
+        _run(sys.argv[1], sys.argv[2], bool(sys.argv[3]))

@@ -114,7 +114,7 @@ class FakePlant(Bench):
         kind = ParameterType.PARAMETER_BOOL if isinstance(value, bool) else ParameterType.PARAMETER_STRING
         held = ParameterValue(type=kind, bool_value=value is True, string_value=value if isinstance(value, str) else "")
         request = SetParameters.Request(parameters=[Parameter(name=name, value=held)])
-        result = self.call(SetParameters, "motor_control/set_parameters", request).results[0]
+        result = self.call(SetParameters, "motor_control/set_parameters", request, keep=True).results[0]
         return result.successful, result.reason
 
     def tell(self, info: Info, measurement: str = "edges") -> None:

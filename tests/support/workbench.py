@@ -38,6 +38,7 @@ class Bench:
         self.node = rclpy.create_node("bench", context=self._context, namespace=namespace or None)
         self.executor = SingleThreadedExecutor(context=self._context)
         self.executor.add_node(self.node)
+        self._kept: dict[str, Any] = {}  # clients, by their services
 
     def close(self) -> None:
         self.executor.shutdown()
@@ -81,9 +82,12 @@ class Bench:
         self.wait(answered, f"an answer of {node}")
         client.destroy()
 
-    def call(self, kind: type, name: str, request: object) -> Any:
-        """The response of a service; who gets none asks again, for a server that was held up may not know us yet."""
-        client = self.node.create_client(kind, name)
+    def call(self, kind: type, name: str, request: object, keep: bool = False) -> Any:
+        """The response of a service; who gets none asks again, for a server that was held up may not know us yet.
+
+        keep: the client is there for later calls, too, which a server that wants to know who calls answers at once.
+        """
+        client = self._kept.pop(name, None) or self.node.create_client(kind, name)
         self.wait(client.service_is_ready, name)
         asked = [client.call_async(request)]
         again = time.monotonic() + PATIENCE / 3
@@ -95,14 +99,17 @@ class Bench:
             return any(future.done() for future in asked)
 
         self.wait(answered, f"an answer of {name}")
-        self.node.destroy_client(client)
+        if keep:
+            self._kept[name] = client
+        else:
+            self.node.destroy_client(client)
         return next(future.result() for future in asked if future.done())
 
     def set(self, node: str, name: str, value: float) -> tuple[bool, str]:
         """Whether a number parameter could be set, and what was said about it."""
         number = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value)
         request = SetParameters.Request(parameters=[Parameter(name=name, value=number)])
-        result = self.call(SetParameters, f"{node}/set_parameters", request).results[0]
+        result = self.call(SetParameters, f"{node}/set_parameters", request, keep=True).results[0]
         return result.successful, result.reason
 
 

@@ -20,6 +20,7 @@ from motor_model.errors import MotorError
 from motor_ros import qos
 from motor_ros.clocks.hold_ups import STOOD_STILL, HoldUps, boot_time
 from motor_ros.clocks.steady_timer import steady_timer
+from motor_ros.graph.callers import Callers
 from motor_ros.graph.commanders import Commanders
 from motor_ros.interface_types import NotInstalled, load_message
 from motor_ros.messages import stamp_age
@@ -68,6 +69,7 @@ class DiffDrive(Node):
         steady_timer(self, 1.0 / float(self._values["rate"]), self._on_timer)
         steady_timer(self, LOOK_EVERY, self._on_look)
         steady_timer(self, 1.0, self._on_second)
+        Callers(self)
         self.add_on_set_parameters_callback(self._on_parameters)
 
     def doubt(self, why: str) -> None:

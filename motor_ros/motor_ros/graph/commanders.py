@@ -6,8 +6,8 @@ from rclpy.node import Node
 
 from motor_ros.clocks.steady_timer import steady_timer
 from motor_ros.graph.acquaintances import Acquaintances, Verdict
-from motor_ros.graph.players import PLAYER, find_servers
-from motor_ros.graph.publishers import Publisher, list_publishers
+from motor_ros.graph.players import find_players_among
+from motor_ros.graph.publishers import list_publishers
 
 LOOK_EVERY = 0.05  # [s]
 RECENT = 5_000_000  # [ns] a look that is older does not tell who has sent what comes now
@@ -40,9 +40,5 @@ class Commanders:
         now = self._looked = time.monotonic_ns()
         self._count = len(there)
         met = self._acquaintances.look(there, set(), now)
-        players = self._find_players(there) if met.watches(now) or self.players else set()
+        players = find_players_among(self._node, there) if met.watches(now) or self.players else set()
         self._acquaintances = self._acquaintances.look(there, players, now)
-
-    def _find_players(self, there: list[Publisher]) -> set[str]:
-        named = {one.node for one in there if one.node.rpartition("/")[2] == PLAYER}
-        return named | find_servers(self._node)

@@ -1,4 +1,4 @@
-"""List who publishes a topic, and who hears one, as the middleware tells it."""
+"""List who publishes a topic, who hears one, and who calls a service, as the middleware tells it."""
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -13,7 +13,7 @@ Id = tuple[int, ...]
 
 
 class Publisher(NamedTuple):
-    """One publisher of a topic, or one who hears it."""
+    """One publisher of a topic, or one who hears it; or one client of a service."""
 
     id: Id  # what the middleware knows it by: who is started again is another one
     node: str  # with its namespace; "" while it is not known
@@ -27,6 +27,21 @@ def list_publishers(node: Node, topic: str) -> list[Publisher]:
 def list_subscribers(node: Node, topic: str) -> list[Publisher]:
     """List who hears a topic."""
     return list(map(_one, node.get_subscriptions_info_by_topic(topic)))
+
+
+def list_clients(node: Node, service: str) -> list[Publisher]:
+    """List the clients of a service by its full name: to the middleware, they publish its requests."""
+    if not node.count_clients(service):
+        return []
+    found = node.get_publishers_info_by_topic(f"rq{service}Request", no_mangle=True)
+    return list(map(_one, found)) or _list_calling_nodes(node, service)
+
+
+def _list_calling_nodes(node: Node, service: str) -> list[Publisher]:
+    """List the nodes that have clients, where the middleware does not tell of each (its topics have other names)."""
+    nodes = [full_name(space, name) for name, space in node.get_node_names_and_namespaces()]
+    asked = ((one, ask_of_node(node.get_client_names_and_types_by_node, one)) for one in nodes if one)
+    return [Publisher(tuple(one.encode()), one) for one, found in asked if any(name == service for name, _ in found)]
 
 
 def count_publishers(node: Node, topic: str) -> int:

@@ -8,14 +8,13 @@ import pytest
 import rclpy
 from bag_player import play
 from plant_rig import Rig
+from rcl_interfaces.srv import SetParameters
 from std_srvs.srv import SetBool, Trigger
-from workbench import DOMAIN, Bench
+from workbench import Bench
 
-from motor_control.node import MotorControl
-from motor_msgs.msg import MotorSpeed, MotorVoltage
+from motor_msgs.msg import ControlState, MotorSpeed, MotorVoltage
 from motor_ros import qos
-from motor_ros.graph.players import _may_call, find_playing_caller
-from motor_ros.graph.publishers import UNKNOWN
+from motor_ros.graph.publishers import UNKNOWN, list_clients
 from motor_ros.messages import time_message, voltage_message
 
 Start = Callable[..., "Popen[str]"]
@@ -52,35 +51,35 @@ def test_a_request_of_a_recording_switches_nothing_on(bench: Bench, name: str, c
     player = rclpy.create_node(name, context=bench._context)
     if calls:
         player.create_client(SetBool, "motor/enable")
-    bench.wait(lambda: _may_call(bench.node, f"/{name}", "/motor/enable") or not calls, "the client")
+    listed = [f"/{name}"] if calls else []
+    bench.wait(lambda: [one.node for one in list_clients(bench.node, "/motor/enable")] == listed, "the client")
     bench.wait(lambda: name in bench.node.get_node_names(), "the node")
-    assert rig.plant._on_enable(SetBool.Request(data=False), SetBool.Response()).success  # whoever asks for that
-    answer = rig.plant._on_enable(SetBool.Request(data=True), SetBool.Response())
+    assert bench.call(SetBool, "motor/enable", SetBool.Request(data=False)).success  # whoever asks for that
+    answer = bench.call(SetBool, "motor/enable", SetBool.Request(data=True))
     assert answer.success is not refused and ("The output is on" in answer.message) is not refused
     said = "The output stays off. /motor/enable would be called by what plays a recording (/rosbag2_player), which may"
     assert answer.message.startswith(said) is refused
     player.destroy_node()
-    bench.wait(lambda: not find_playing_caller(bench.node, "motor/enable"), "its end")
-    assert rig.plant._on_enable(SetBool.Request(data=True), SetBool.Response()).success
+    bench.wait(lambda: not list_clients(bench.node, "/motor/enable"), "its end")
+    assert bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success and rig.plant.gate.enabled
 
 
-def test_a_request_of_a_recording_resets_no_controller(bench: Bench) -> None:
-    rclpy.init(args=[], domain_id=int(DOMAIN))
-    node = MotorControl()
-    try:
-        node.doubt("there is something wrong")
-        player = rclpy.create_node("rosbag2_player", context=bench._context)
-        player.create_client(Trigger, "motor/reset")
-        bench.wait(lambda: find_playing_caller(node, "motor/reset") != "", "the player")
-        answer = node._on_reset(Trigger.Response())
-        assert not answer.success and "/motor/reset would be called by what plays" in answer.message
-        assert node._state.latched
-        player.destroy_node()
-        bench.wait(lambda: not find_playing_caller(node, "motor/reset"), "its end")
-        assert node._on_reset(Trigger.Response()).success and not node._state.latched
-    finally:
-        node.destroy_node()
-        rclpy.shutdown()
+def test_a_request_of_a_recording_resets_no_controller_and_sets_no_limit(bench: Bench, start: Start) -> None:
+    start("motor_sim", "motor_sim")
+    start("motor_control", "motor_control", "--ros-args", "-p", "voltage_limt:=5.0")
+    states = bench.hear(ControlState, "motor/control_state", qos.CONTROL_STATE)
+    bench.wait(lambda: bool(states) and states[-1].state == "stopped", "a stop")
+    player = rclpy.create_node("rosbag2_player", context=bench._context)
+    player.create_client(Trigger, "motor/reset")
+    player.create_client(SetParameters, "motor_control/set_parameters")
+    answer = bench.call(Trigger, "motor/reset", Trigger.Request())
+    assert not answer.success and "/motor/reset would be called by what plays" in answer.message
+    obeyed, why = bench.set("motor_control", "voltage_limit", 11.0)
+    assert not obeyed and "/motor_control/set_parameters would be called by what plays" in why
+    player.destroy_node()
+    bench.wait(lambda: "rosbag2_player" not in bench.node.get_node_names(), "its end")
+    assert bench.set("motor_control", "voltage_limit", 11.0)[0]
+    assert bench.call(Trigger, "motor/reset", Trigger.Request()).success
 
 
 def test_a_player_of_another_name_is_known_by_what_it_serves(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -4,8 +4,10 @@ from types import SimpleNamespace
 from typing import cast
 
 from rclpy.node import Node
+from std_srvs.srv import Trigger
+from workbench import Bench
 
-from motor_ros.graph.publishers import NAMELESS, UNKNOWN, list_publishers, publishers_of
+from motor_ros.graph.publishers import NAMELESS, UNKNOWN, list_clients, list_publishers, publishers_of
 
 
 def heard(*names: tuple[str, str]) -> Node:
@@ -22,3 +24,12 @@ def test_nodes_have_their_namespaces_and_who_is_not_named_yet_comes_last() -> No
     assert publishers_of(node, "motor/speed") == ["/motor_sim", "/right/motor_sim", NAMELESS]
     assert [one.node for one in list_publishers(node, "motor/speed")] == ["", "/right/motor_sim", "/motor_sim"]
     assert UNKNOWN not in NAMELESS and publishers_of(heard(), "motor/speed") == []
+
+
+def test_every_client_of_a_service_is_listed_and_where_the_middleware_does_not_every_node(bench: Bench) -> None:
+    """Nodes are told of a service once however many clients they have of it: of two, one may not be known yet."""
+    clients = [bench.node.create_client(Trigger, "x") for _ in range(2)]
+    bench.wait(lambda: [one.node for one in list_clients(bench.node, "/x")] == ["/bench"] * 2, "both")
+    assert len({one.id for one in list_clients(bench.node, "/x")}) == 2 and list_clients(bench.node, "/y") == []
+    bench.node.get_publishers_info_by_topic = lambda *_, **__: []  # type: ignore[method-assign]
+    assert [one.node for one in list_clients(bench.node, "/x")] == ["/bench"] and len(clients) == 2
