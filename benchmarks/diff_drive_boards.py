@@ -52,7 +52,7 @@ class BoardWheel:
             hear=self._answer,
         )
         self.config = OURS.config(self.side, board_of(self.seed))
-        self.wheel, self._sent = Wheel(TRUE[self.side].name, info=self.rig.driver.info), 0
+        self.wheel, self._sent = Wheel(TRUE[self.side].name, info=self.rig.driver.info, reference_timeout=0.5), 0
         self.rig.plug()
 
     @property

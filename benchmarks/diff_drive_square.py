@@ -124,7 +124,7 @@ def drive_square(loop: Loop, seed: int, way: float = 1.0, travel_gain: float = 0
     motors = []
     for side, name in enumerate(("left", "right")):
         board = board_of(100 + 2 * seed + side)
-        wheel = Wheel(name, info=board.info(TRUE[side]))
+        wheel = Wheel(name, info=board.info(TRUE[side]), reference_timeout=0.5)
         motors.append(Motor(loop.config(side, board), SimulatedBoard(TRUE[side], board), wheel))
     config, state = drive.Config(GEOMETRY, LIMITS, travel_gain=travel_gain), drive.State()
     true = seen = Pose()

@@ -15,7 +15,7 @@ from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParameters
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
-from std_srvs.srv import SetBool
+from std_srvs.srv import SetBool, Trigger
 from workbench import DOMAIN, Bench, end
 
 from motor_examples.diff_drive import drive, wheel
@@ -97,6 +97,64 @@ def test_a_drive_in_doubt_asks_two_motors_for_no_motion(
 
 
 @pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (("-r", "~/get_parameters:=/away/get_parameters"), "The controller of the left wheel does not say how long"),
+        ((), "More than one node controls the left wheel (/left/motor_control, /left/second): end the others"),
+    ],
+)
+def test_a_drive_that_does_not_know_who_controls_a_wheel_asks_for_no_motion(
+    bench: Bench, start: Start, options: tuple[str, ...], words: str
+) -> None:
+    """It drove both after 3 s; beside a controller that answered nothing and held its references for ever, too."""
+    left = ("--ros-args", "-r", "__ns:=/left", "-p", "latency_limit:=0.5")
+    for side in SIDES:
+        namespace = ("--ros-args", "-r", f"__ns:=/{side}")
+        start("motor_sim", "motor_sim", *namespace, "-p", f"name:={side}", "-p", "single_channel:=false")
+    start("motor_control", "motor_control", *left, *options, "-p", "reference_timeout:=0.0" if options else "kp:=0.2")
+    start("motor_control", "motor_control", "--ros-args", "-r", "__ns:=/right", "-p", "reference_timeout:=0.5")
+    if not options:
+        start("motor_control", "motor_control", *left, "-r", "__node:=second")
+    references = [bench.hear(Float64, f"{side}/motor/reference", qos.REFERENCE) for side in SIDES]
+    states = [bench.hear(ControlState, f"{side}/motor/control_state", qos.CONTROL_STATE) for side in SIDES]
+    bench.wait(lambda: all(any(one.state == "disabled" for one in side) for side in states), "both controllers")
+    start("motor_examples", "diff_drive")
+    poses = bench.hear(Odometry, "odom", qos.ODOMETRY)
+    driver = Driver(bench)
+    driver.twist = (0.4, 1.0)
+    bench.wait(lambda: driver.reason.startswith(words), "the words")
+    seen = len(poses)
+    bench.wait(lambda: len(poses) > seen + 200, "four seconds of them")
+    assert not any(one.data for side in references for one in side) and poses[-1].pose.pose.position.x == 0.0
+
+
+def test_questions_that_nobody_answers_are_not_kept(bench: Bench) -> None:
+    """One was added every second, for as long as a controller hung."""
+    rclpy.init(args=[], domain_id=int(DOMAIN))
+    node, hung = DiffDrive(), rclpy.create_node("motor_control", context=bench._context, namespace="left")
+    try:
+        hung.create_publisher(ControlState, "motor/control_state", qos.CONTROL_STATE)
+        hung.create_service(Trigger, "motor/release", lambda _, response: response)  # never spun
+        motor, asked = node._left, set()
+
+        def ask(times: int) -> bool:
+            motor._asked_at = 0.0
+            motor.meet_controller()
+            motor.release()
+            asked.add(motor._question)
+            return len(asked - {None}) >= times and motor._let_go is not None
+
+        bench.wait(lambda: ask(5), "questions")
+        assert motor._asked is not None and len(motor._asked._pending_requests) == 1
+        assert len(motor._release._pending_requests) == 1
+        assert motor.wheel.reference_timeout is None and motor.wheel.unsaid_since is not None
+    finally:
+        hung.destroy_node()
+        node.destroy_node()
+        rclpy.shutdown()
+
+
+@pytest.mark.parametrize(
     "given", [("-p", "right:=left"), ("-p", "right:=/left"), ("-r", "right/motor/reference:=left/motor/reference")]
 )
 def test_a_drive_of_one_motor_is_none(start: Start, given: tuple[str, str]) -> None:
@@ -109,7 +167,8 @@ def test_a_drive_of_one_motor_is_none(start: Start, given: tuple[str, str]) -> N
 def hear_both_wheels(node: DiffDrive) -> None:
     """Both controllers run, and have just been heard."""
     for motor in (node._left, node._right):
-        told = wheel.Wheel(motor.wheel.name, info=Info(single_channel=False), sample=Sample(1, 0.0, 1.0))
+        info, sample = Info(single_channel=False), Sample(1, 0.0, 1.0)
+        told = wheel.Wheel(motor.wheel.name, info=info, sample=sample, reference_timeout=2.0)
         motor.wheel = wheel.follow_controller(told, "running", "", 1.0, boot_time())
         motor.wheel = wheel.follow_sample(motor.wheel, Sample(2, 0.0, 1.0), boot_time())
 

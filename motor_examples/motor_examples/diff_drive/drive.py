@@ -8,6 +8,7 @@ Whatever is in doubt, the robot stands:
     this drive stood still for 1 s       the same for what comes in the next 3.5 s: it may have been sent meanwhile; and
                                          0 for both at once: what was obeyed before does not go on by itself
     one wheel is in trouble              0 for both at once, then let go; a robot on one wheel turns in circles
+    nobody knows who controls a wheel,   the same: two do, or one that does not say how long it would go on by itself
 
 While it moves, the wheels are kept to what they should have turned by now: `travel_gain` times what a wheel is behind
 is added to its reference. So what a start or a stop has left, the next motion makes up for, and the robot goes straight
@@ -122,7 +123,7 @@ def step(config: Config, state: State, wheels: tuple[Wheel, Wheel], now: float) 
     healthy, reason = not state.trouble, BEGIN.format(state.trouble) if state.trouble else state.reason
     if state.command is None and state.since is None:
         return Decision(None, False, reason, healthy), replace(state, twist=STILL, behind=Wheels(0.0, 0.0))
-    if state.since is None and any(awaits_answer(wheel, now) for wheel in wheels):
+    if state.since is None and any(map(awaits_answer, wheels)):
         return Decision(None, False, ASKING, healthy), replace(state, twist=STILL, behind=Wheels(0.0, 0.0))
     still_since = (now if state.still_since is None else state.still_since) if state.twist == STILL else None
     state = replace(state, since=now if state.since is None else state.since, still_since=still_since)

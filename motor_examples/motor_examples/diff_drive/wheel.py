@@ -10,7 +10,7 @@ UNAPPLIED = 0.1  # [s] of 0 V where the controller asks for a voltage: its first
 ASKED = 0.02  # of max_voltage: less may be rounded to no duty at all
 OBEYED = 0.5  # [s] after which a controller that was given a reference runs
 MOST_HELD = 2.0  # [s] for which a controller may go on alone: a robot at 0.5 m/s goes a metre
-ANSWERS = 3.0  # [s] in which a controller says how long it would; one of another make never does
+ANSWERS = 3.0  # [s] in which a controller says how long it would: one that is busy takes a second
 RUNNING = "running"
 FAILED = ("stopped", "no_samples")
 
@@ -21,6 +21,11 @@ HOLDS = (
     "The controller of the {0} wheel would go on{1} if this drive died: set its reference_timeout, "
     "ros2 param set /{0}/motor_control reference_timeout 0.5."
 )
+UNSAID = (
+    "The controller of the {0} wheel does not say how long it would go on if this drive died: it is another than "
+    "before, does not answer, or has no reference_timeout; start motor_control anew in the namespace {0}."
+)
+RIVALS = "More than one node controls the {} wheel ({}): end the others; one that was killed is listed for a while."
 NOT_RUNNING = "The {} wheel does not run: {}"
 OUTPUT_OFF = "The output of the {0} wheel is off: see why in /diagnostics, then call {0}/motor/enable."
 
@@ -41,7 +46,8 @@ class Wheel:
     asked: float = 0.0  # [V] by its controller
     answered: float | None = None  # when its controller was last heard
     reference_timeout: float | None = None  # [s] of its controller; 0: it holds a reference for ever; None: not known
-    unsaid_since: float | None = None  # since when its controller is there without having said that; None: it has
+    unsaid_since: float | None = None  # since when its controller has not answered that; None: it has
+    rivals: str = ""  # those who control it, where they are more than one
     off_since: float | None = None  # since when the plant applies nothing of what is asked for
 
     @property
@@ -90,6 +96,11 @@ def find_trouble(wheel: Wheel, now: float, driven: float) -> str:
         return NO_SAMPLES.format(wheel.name, now - wheel.heard)
     if wheel.answered is None or now - wheel.answered > SILENCE:
         return NO_CONTROLLER.format(wheel.name)
+    if wheel.rivals:
+        return RIVALS.format(wheel.name, wheel.rivals)
+    silent = wheel.unsaid_since is not None and now - wheel.unsaid_since > ANSWERS
+    if silent or (driven > 0.0 and wheel.reference_timeout is None):
+        return UNSAID.format(wheel.name)
     if wheel.reference_timeout is not None and not 0.0 < wheel.reference_timeout <= MOST_HELD:
         return HOLDS.format(wheel.name, f" for {wheel.reference_timeout:g} s" if wheel.reference_timeout else "")
     if wheel.state in FAILED or (driven > OBEYED and wheel.state != RUNNING):
@@ -99,6 +110,6 @@ def find_trouble(wheel: Wheel, now: float, driven: float) -> str:
     return ""
 
 
-def awaits_answer(wheel: Wheel, now: float) -> bool:
+def awaits_answer(wheel: Wheel) -> bool:
     """Tell whether a wheel's controller is still to say for how long it would go on alone."""
-    return wheel.unsaid_since is not None and now - wheel.unsaid_since <= ANSWERS
+    return wheel.reference_timeout is None

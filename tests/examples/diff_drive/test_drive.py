@@ -7,7 +7,7 @@ import pytest
 
 from motor_examples.diff_drive import drive
 from motor_examples.diff_drive.kinematics import STILL, Geometry, Limits, Twist, Wheels, wheel_speeds
-from motor_examples.diff_drive.wheel import Wheel
+from motor_examples.diff_drive.wheel import ANSWERS, Wheel
 from motor_model.sample import Info, Sample
 
 ROBOT = Geometry(0.05, 0.2)
@@ -25,6 +25,7 @@ class Robot:
         self.info = Info(edges_per_revolution=1_000_000, single_channel=False)
         self.said = {"left": "running", "right": "running"}
         self.unsaid: float | None = None  # [s] since when the left controller has not said how long it goes on alone
+        self.rivals = ""  # who else controls the left wheel
         self.slip = Wheels(1.0, 1.0)  # share of what is asked for that each wheel turns
         self.edges = [0.0, 0.0]
         self.decisions: list[drive.Decision] = []
@@ -36,7 +37,8 @@ class Robot:
         sample = Sample(round(self.now * 1e9), self.speeds[side], 1.0, round(self.edges[side]))
         unsaid = self.unsaid if name == "left" else None
         said = {"state": self.said[name], "reason": "Blocked.", "answered": self.now, "heard": self.now}
-        said |= {"unsaid_since": unsaid}  # type: ignore[dict-item]
+        said |= {"unsaid_since": unsaid, "reference_timeout": 0.5 if unsaid is None else None}  # type: ignore[dict-item]
+        said |= {"rivals": self.rivals if name == "left" else ""}
         return replace(Wheel(name, info=self.info, sample=sample, edges=sample.edge_count), **said)  # type: ignore[arg-type]
 
     def run(self, duration: float, twist: Twist | None = None) -> drive.Decision:
@@ -106,8 +108,27 @@ def test_nothing_begins_before_both_controllers_have_said_how_long_they_would_go
     assert robot.run(0.4, SPEED) == drive.Decision(None, False, drive.ASKING, True)
     robot.unsaid = None
     assert robot.run(DT, SPEED).references == wheel_speeds(ROBOT, SPEED)  # nobody has to begin again for that
+    robot.run(DT, SPEED)
     robot.unsaid = robot.now  # another controller
-    assert robot.run(DT, SPEED).references == wheel_speeds(ROBOT, SPEED)
+    decision = robot.run(DT, SPEED)
+    assert decision.references == Wheels(0.0, 0.0) and "does not say how long it would go on" in decision.reason
+
+
+def test_a_controller_that_never_says_that_is_not_driven() -> None:
+    robot = Robot()
+    robot.unsaid = robot.now
+    decision = robot.run(ANSWERS + 2.0 * DT, SPEED)
+    assert decision.references is None and not decision.healthy and "does not say how long" in decision.reason
+    assert all(one.references is None for one in robot.decisions)
+
+
+def test_two_controllers_of_one_wheel_stop_both_wheels() -> None:
+    robot = Robot()
+    robot.run(1.0, SPEED)
+    robot.rivals = "/left/a, /left/b"
+    decision = robot.run(DT, SPEED)
+    assert decision.references == Wheels(0.0, 0.0) and not decision.healthy
+    assert decision.reason.startswith("More than one node controls the left wheel (/left/a, /left/b): end the others;")
 
 
 def test_after_a_trouble_velocities_begin_again() -> None:

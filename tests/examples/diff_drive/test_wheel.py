@@ -25,7 +25,7 @@ ONE = replace(TWO, single_channel=True)
 
 def turned(info: Info, steps: list[tuple[int, float]], sign: float = 1.0) -> Wheel:
     """A wheel after samples of a count and a speed [rad/s], 10 ms apart."""
-    wheel = Wheel("left", sign, info)
+    wheel = Wheel("left", sign, info, reference_timeout=0.5)
     for k, (count, speed) in enumerate(steps):
         wheel = follow_sample(wheel, Sample(10_000_000 * (k + 1), speed, 0.0, count), 0.01 * k)
     return wheel
@@ -88,7 +88,7 @@ def test_every_trouble_is_said_and_nothing_else() -> None:
 def test_a_controller_that_would_go_on_alone_is_not_relied_on() -> None:
     well = follow_controller(turned(TWO, [(0, 0.0)]), "running", "", 3.0, 0.0)
     for timeout, words in (
-        (None, ""),
+        (None, "does not say how long it would go on"),
         (0.5, ""),
         (MOST_HELD, ""),
         (1.01 * MOST_HELD, "would go on for 2.02 s if this drive died"),
@@ -102,11 +102,19 @@ def test_a_controller_that_would_go_on_alone_is_not_relied_on() -> None:
 
 def test_a_controller_is_waited_for_until_it_has_said_how_long_it_goes_on_alone() -> None:
     well = follow_controller(turned(TWO, [(0, 0.0)]), "running", "", 3.0, 0.0)
-    asked = replace(well, unsaid_since=5.0)
-    assert not awaits_answer(well, 5.0)
-    assert awaits_answer(asked, 5.0) and awaits_answer(asked, 5.0 + 0.99 * ANSWERS)
-    assert not awaits_answer(asked, 5.0 + 1.01 * ANSWERS)  # one of another make
-    assert find_trouble(asked, 0.0, 0.0) == ""
+    assert not awaits_answer(well) and find_trouble(well, 0.0, 9.0) == ""
+    asked = replace(well, reference_timeout=None, unsaid_since=0.0)
+    assert awaits_answer(asked) and find_trouble(asked, 0.0, 0.0) == ""
+    assert "does not say how long it would go on" in find_trouble(asked, 0.0, 0.02)  # it is driven, and is another now
+    for known in (None, 0.5):  # one that has said it before may have ended since, or hang
+        heard = follow_controller(replace(well, heard=2.99, reference_timeout=known), "running", "", 3.0, 2.99)
+        assert find_trouble(replace(heard, unsaid_since=2.99 - 0.99 * ANSWERS), 2.99, 0.0) == ""
+        assert "left wheel does not say" in find_trouble(replace(heard, unsaid_since=2.99 - 1.01 * ANSWERS), 2.99, 0.0)
+
+
+def test_two_controllers_are_one_too_many() -> None:
+    well = follow_controller(turned(TWO, [(0, 0.0)]), "running", "", 3.0, 0.0)
+    assert "(/left/a, /left/b)" in find_trouble(replace(well, rivals="/left/a, /left/b"), 0.0, 0.0)
 
 
 def test_an_output_that_is_off_is_said_after_a_moment() -> None:
