@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 from rclpy.node import Node
 
-from motor_ros.graph.publishers import Publisher
+from motor_ros.graph.publishers import Publisher, ask_of_node
 
 # How `ros2 bag play` calls its node, and what it serves under whatever name. A recording that it plays asks nobody, and
 # leaves a motor as it is at its end.
@@ -15,12 +15,21 @@ CALLED = (
 )
 
 
-def find_servers(node: Node) -> set[str]:
-    """Find the nodes that serve what a player serves, by their full names."""
-    services = node.get_service_names_and_types()
-    return {name.rpartition("/")[0] for name, kinds in services if any(SERVED in kind for kind in kinds)}
-
-
 def find_players_among(node: Node, there: Iterable[Publisher]) -> set[str]:
-    """Find the nodes that play recordings among those that publish, or call, and all that serve as a player does."""
-    return {one.node for one in there if one.node.rpartition("/")[2] == PLAYER} | find_servers(node)
+    """Find the nodes that play recordings among those that publish, or call, by their full names."""
+    names = {one.node for one in there if one.node}
+    servers = _find_servers(node)  # by their services' names, of two nodes of one name, too
+    return {one for one in names if one.rpartition("/")[2] == PLAYER or one in servers or _serves(node, one)}
+
+
+def _find_servers(node: Node) -> set[str]:
+    return {name.rpartition("/")[0] for name, kinds in node.get_service_names_and_types() if _is_served(kinds)}
+
+
+def _serves(node: Node, name: str) -> bool:
+    """Tell whether a node serves what a player serves, whatever that has been renamed to."""
+    return any(_is_served(kinds) for _, kinds in ask_of_node(node.get_service_names_and_types_by_node, name))
+
+
+def _is_served(kinds: Iterable[str]) -> bool:
+    return any(SERVED in kind for kind in kinds)

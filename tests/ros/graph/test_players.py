@@ -14,7 +14,8 @@ from workbench import Bench
 
 from motor_msgs.msg import ControlState, MotorSpeed, MotorVoltage
 from motor_ros import qos
-from motor_ros.graph.publishers import UNKNOWN, list_clients
+from motor_ros.graph.players import find_players_among
+from motor_ros.graph.publishers import UNKNOWN, Publisher, list_clients
 from motor_ros.messages import time_message, voltage_message
 
 Start = Callable[..., "Popen[str]"]
@@ -82,10 +83,22 @@ def test_a_request_of_a_recording_resets_no_controller_and_sets_no_limit(bench: 
     assert bench.call(Trigger, "motor/reset", Trigger.Request()).success
 
 
-def test_a_player_of_another_name_is_known_by_what_it_serves(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_of_a_node_without_a_name_yet_nothing_is_asked(bench: Bench) -> None:
+    """The middleware refuses to be asked of it, and the plant would end."""
+    there = [Publisher((1,), ""), Publisher((2,), "/rosbag2_player"), Publisher((3,), "/gone")]
+    assert find_players_among(bench.node, there) == {"/rosbag2_player"}
+
+
+@pytest.mark.parametrize("renamed", [False, True])
+def test_a_player_of_another_name_is_known_by_what_it_serves(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch, renamed: bool
+) -> None:
+    """Its services may be renamed, too (`ros2 bag play --remap`), and it may have the name of another node."""
     rig = ready(bench)
-    served = [("/x/pause", ["rosbag2_interfaces/srv/Pause"])]
-    monkeypatch.setattr(rig.plant._commanders._node, "get_service_names_and_types", lambda: served)
+    asked, served = rig.plant._commanders._node, [("/y/z" if renamed else "/x/pause", ["rosbag2_interfaces/srv/Pause"])]
+    monkeypatch.setattr(asked, "get_service_names_and_types", lambda: served)
+    of_node = served if renamed else []  # else of another x
+    monkeypatch.setattr(asked, "get_service_names_and_types_by_node", lambda name, _: of_node if name == "x" else [])
     player = rclpy.create_node("x", context=bench._context)
     player.create_publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
     bench.wait(lambda: rig.sample() == 0.0, "0 V")
