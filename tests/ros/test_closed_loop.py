@@ -87,11 +87,11 @@ def test_with_its_model_the_loop_holds_slow_speeds_and_says_when_the_output_is_o
         assert 0.0 < np.max(np.abs([state.innovation for state in late])) < 0.02
     assert hold(0.0, 0.5)[-1].speed == 0.0 and states[-1].voltage == 0.0
     hold(20.0, 0.5)
-    assert bench.call(SetBool, "motor/enable", SetBool.Request(data=False)).success
+    assert bench.call(SetBool, "motor/enable", SetBool.Request(data=False), keep=True).success
     bench.wait(lambda: "motor/enable" in states[-1].reason, "the reason")
     held = hold(20.0, 0.3)
     assert np.ptp([state.integral for state in held[20:]]) < 1e-3 and held[-1].state == "running"
-    assert bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
+    assert bench.call(SetBool, "motor/enable", SetBool.Request(data=True), keep=True).success
     assert np.mean([state.speed for state in hold(20.0, 1.0)[-60:]]) == pytest.approx(20.0, abs=0.3)
     assert states[-1].reason == ""
 
