@@ -122,20 +122,21 @@ def _past(h: MotionHistory, most: Reach) -> Floats:
 
 
 PAST = "past"
+BY_TIME = "time"
 FAMILIES: dict[str, Callable[[MotionHistory, Reach], Floats]] = {
     "speed": _speed,
     "voltage": _voltage,
     "drive": _drive,
     "speed_voltage": _speed_by_voltage,
     "angle": _angle,
-    "time": _time,
+    BY_TIME: _time,
     "spectrum": _spectrum,
     PAST: _past,
 }
 
 REPEATING = ("angle", "time", "spectrum")  # what comes and goes whatever the motor is asked to do
 OF_SPEED = ("speed", "drive", "speed_voltage", "angle", "time")  # the measured speed is part of the curves
-OF_ONE_RECORDING = ("time", "spectrum")  # what is different in every recording is learnt and judged in the same one
+OF_ONE_RECORDING = (BY_TIME, "spectrum")  # what is different in every recording is learnt and judged in the same one
 
 
 def respond(history: MotionHistory, torques: Floats, lag: Lag) -> Floats:

@@ -9,6 +9,7 @@ from stub_models import StubModel, short_by, stub_model, stub_test
 from stub_selections import selection_of, step_of
 
 from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis import verdict as verdict_module
 from motor_identification.diagnosis import verdict as verdicts
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.result import Finding, Nearest, Verdict
@@ -20,6 +21,7 @@ from motor_identification.diagnosis.verdict import (
     find_missed_edges,
     find_nearest,
     leave_out_named,
+    list_barred,
 )
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.estimation.request import SearchReport
@@ -72,6 +74,25 @@ def test_what_nothing_predicts_is_not_said_to_be_outside_the_table(
     monkeypatch.setattr(type(model), "structure", ())
     assert decide(said, chosen(model), ())[0] is Verdict.UNDECIDED
     assert decide(said, chosen(model, sure), ())[0] is Verdict.UNEXPLAINED
+
+
+@pytest.mark.parametrize(
+    ("variable", "share", "judged", "barred"),
+    [
+        ("time", 0.76, ["coulomb_friction"], ("warm_up",)),
+        ("time", 0.01, ["coulomb_friction"], ()),  # by chance
+        ("speed", 0.76, ["coulomb_friction"], ()),
+        ("time", 0.76, ["coulomb_friction", "warm_up"], ()),  # which was tried, and is not it
+    ],
+)
+def test_what_goes_with_the_time_may_be_what_could_not_be_judged(
+    variable: str, share: float, judged: list[str], barred: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A warming-up in a sweep was said not to be in the table."""
+    monkeypatch.setattr(type(stub_model(OVER, 0.0)), "structure", (Structure(variable, share, 90.0),))
+    monkeypatch.setattr(verdict_module, "list_candidates", lambda *_: judged)
+    assert list_barred(chosen(stub_model(OVER, 0.0))) == barred
+    assert list_barred(chosen(stub_model(OVER, 0.0), Structure("past", 0.9, 90.0, True, "a ramp"))) == ()
 
 
 @pytest.mark.parametrize(
