@@ -15,6 +15,7 @@ from motor_identification.diagnosis.result import Alternative, Diagnosis, Findin
 from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
 from motor_identification.discrepancy.free_curves import BY_TIME
 from motor_identification.discrepancy.region_text import describe_error
+from motor_identification.discrepancy.structure import OVER_THE_DISC
 from motor_identification.estimation.request import SearchReport
 from motor_identification.recording import Recording
 from motor_identification.uncertainty.identifiability import suggest_profile
@@ -76,18 +77,28 @@ def conclude(
 
 
 def list_barred(selection: Selection) -> tuple[str, ...]:
-    """List what comes slowly and could not be judged, where what is left goes with the time.
+    """List the effects that what is left goes with, by time or angle, and that could not be judged.
 
-    Under a sweep whatever depends on the frequency does: nothing says then that it is outside the table. Measured: a
-    warming-up by 0.24 beside a dead time, of which the time predicts 76 %.
+    Nothing says then that it is outside the table. Under a sweep whatever depends on the frequency goes with the time,
+    and times between edges do not count the angle. Measured: a warming-up by 0.24 beside a dead time, of which the time
+    predicts 76 %, and an eccentric disc of which the angle does 100.
     """
     last = selection.model
     certain = [one for one in selection.structure if one.certain]
-    if not certain or certain[0].variable != BY_TIME or certain[0].cause:
+    if not certain or certain[0].cause:
         return ()
+    named: dict[str, Callable[[str], bool]] = {BY_TIME: comes_slowly, OVER_THE_DISC: _is_periodic}
+    belongs = named.get(certain[0].variable)
     judged = list_candidates(last.effects, last.held, last.beside_torque)
-    slow = [name for name in EFFECT_BY_NAME if comes_slowly(name)]
-    return tuple(name for name in slow if name not in last.effects and name not in judged)
+    return tuple(
+        name
+        for name in EFFECT_BY_NAME
+        if belongs is not None and belongs(name) and name not in last.effects and name not in judged
+    )
+
+
+def _is_periodic(effect: str) -> bool:
+    return EFFECT_BY_NAME[effect].periodic
 
 
 def doubt_lags(findings: Sequence[Finding]) -> tuple[Finding, ...]:

@@ -81,11 +81,13 @@ def test_what_nothing_predicts_is_not_said_to_be_outside_the_table(
     [
         ("time", 0.76, ["coulomb_friction"], ("warm_up",)),
         ("time", 0.01, ["coulomb_friction"], ()),  # by chance
+        ("angle", 0.76, ["coulomb_friction", "torque_ripple"], ("encoder_eccentricity",)),
+        ("angle", 0.76, ["torque_ripple", "encoder_eccentricity"], ()),
         ("speed", 0.76, ["coulomb_friction"], ()),
         ("time", 0.76, ["coulomb_friction", "warm_up"], ()),  # which was tried, and is not it
     ],
 )
-def test_what_goes_with_the_time_may_be_what_could_not_be_judged(
+def test_what_goes_with_time_or_angle_may_be_what_could_not_be_judged(
     variable: str, share: float, judged: list[str], barred: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A warming-up in a sweep was said not to be in the table."""
