@@ -98,10 +98,14 @@ class Diagnosis:
     time_limit: float = 0.0  # [s] that ended the search before everything was tried; 0 where none did
 
     @property
+    def leaves_more(self) -> bool:
+        """Whether more is left than the sensor leaves, that no random torque makes."""
+        return self.gap_after > EXPLAINED_GAP * self.sensor_floor and self.disturbance is None
+
+    @property
     def is_unpredicted(self) -> bool:
         """Whether more is left than the sensor leaves, that no random torque makes and nothing measured predicts."""
-        above = self.gap_after > EXPLAINED_GAP * self.sensor_floor
-        return above and self.disturbance is None and not any(one.certain for one in self.structure)
+        return self.leaves_more and not any(one.certain for one in self.structure)
 
     @property
     def is_of_no_motor(self) -> bool:

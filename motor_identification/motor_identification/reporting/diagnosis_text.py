@@ -153,6 +153,7 @@ def _describe_findings(diagnosis: Diagnosis) -> str:
     vague = list_vague(clear)
     sized = [one for one in clear if one not in vague]
     sure = diagnosis.after.confirms and not (diagnosis.is_of_no_motor or diagnosis.time_limit)
+    sure = sure and not (diagnosis.undetermined and diagnosis.leaves_more)  # beside that they may stand in
     parts = [f"{_describe_found(sized, sure)}."] if sized else []
     parts += [f"{_describe_found(vague, sure=False)}; this recording does not tell how much."] if vague else []
     missing = "is missing" if sure else "may be missing"

@@ -85,6 +85,20 @@ def test_what_was_found_until_a_time_limit_is_not_sure(found: Diagnosis) -> None
     assert "was missing" not in hurried and "is missing" not in hurried
 
 
+@pytest.mark.parametrize(
+    ("above", "undetermined", "sure"), [(1.31, ("warm_up",), False), (1.29, ("warm_up",), True), (1.31, (), True)]
+)
+def test_a_finding_beside_what_is_not_determined_may_stand_in_for_it(
+    above: float, undetermined: tuple[str, ...], sure: bool, variants: dict[Verdict, Diagnosis]
+) -> None:
+    """A coasting bridge and a dead time were left of a disc that was not determined, and nearly all of the gap."""
+    found = variants[Verdict.EXPLAINED]
+    left = replace(found, disturbance=None, gap_after=above * found.sensor_floor, undetermined=undetermined)
+    said = summarize_diagnosis(replace(left, verdict=Verdict.UNDECIDED))
+    assert ("was missing" in said or "were missing" in said) is sure
+    assert ("may be missing" in said) is not sure
+
+
 def test_of_a_motion_that_does_not_follow_its_command_kv_is_not_said_as_well(
     variants: dict[Verdict, Diagnosis], monkeypatch: pytest.MonkeyPatch
 ) -> None:
