@@ -268,3 +268,22 @@ def test_gains_of_runs_hide_what_was_found(gain: float, by_fit: bool, found: int
     names = module.list_hidden_by_torque(plain, beside)
     assert names == (("coulomb_friction", "dead_zone") if hidden else ())
     assert module.list_hidden_by_torque(plain, replace(beside, steps=(step,))) == ()
+
+
+@pytest.mark.parametrize(
+    ("plain_gap", "left", "kept", "too_much"),
+    [
+        (1.0, 0.74, ("voltage_limit",), True),
+        (1.0, 0.76, ("voltage_limit",), False),
+        (9.0, 0.74, ("voltage_limit",), False),  # more was left than the sensor leaves
+        (1.0, 0.74, ("voltage_limit", "load_step"), False),  # it is no less than was found
+    ],
+)
+def test_a_torque_that_would_leave_more_than_is_left_stands_for_nothing(
+    plain_gap: float, left: float, kept: tuple[str, ...], too_much: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Beside edges that were missed, for a drag that the sensor's floor had been reached with."""
+    plain = with_effects(stub_model(plain_gap), "voltage_limit", "quadratic_drag")
+    monkeypatch.setattr(Model, "noise_floor", 1.0)
+    assert thresholds.RANDOM_GAP[0] == 0.75
+    assert module._is_too_much(with_effects(stub_model(left), *kept), plain) is too_much
