@@ -176,7 +176,9 @@ def _select_as_timed(
         return start, selected
     again = begin_as_timed(first, timing, request, reporter.stopped)
     other = _select_in_time(again.selection, reporter.beyond(DONE_ONCE), limit)
-    alike = other.selection.model.held.gap <= most * selected.selection.model.held.gap
+    model = other.selection.model
+    # What a filter hides of the noise makes a gap smaller, too: without it, all has to be explained.
+    alike = model.held.gap <= most * selected.selection.model.held.gap and (model.complete or not doubted)
     return (again, other) if other.finished and alike else (start, selected)
 
 

@@ -154,9 +154,12 @@ def test_a_timing_by_which_more_is_left_is_none(monkeypatch: pytest.MonkeyPatch)
     assert {"supply_sag", "transport_delay"} < {finding.effect for finding in found.findings}
 
 
-@pytest.mark.parametrize(("gap", "above", "taken"), [(4.9, True, True), (5.1, True, False), (4.9, False, False)])
+@pytest.mark.parametrize(
+    ("gap", "above", "complete", "taken"),
+    [(4.9, True, True, True), (5.1, True, True, False), (4.9, False, True, False), (4.9, True, False, False)],
+)
 def test_a_filter_behind_which_much_is_left_is_doubted(
-    monkeypatch: pytest.MonkeyPatch, gap: float, above: bool, taken: bool
+    monkeypatch: pytest.MonkeyPatch, gap: float, above: bool, complete: bool, taken: bool
 ) -> None:
     """Of times between edges a ripple was taken for one: with its true timing a ninth was left."""
     smoothed = replace(ASSUMED, filter=SpeedFilter("twice", 0.3))
@@ -170,7 +173,7 @@ def test_a_filter_behind_which_much_is_left_is_doubted(
 
     def select(*_: Any) -> Any:
         left, over = next(gaps)
-        model = SimpleNamespace(held=SimpleNamespace(gap=left), above_floor=over)
+        model = SimpleNamespace(held=SimpleNamespace(gap=left), above_floor=over, complete=complete)
         return SimpleNamespace(selection=SimpleNamespace(model=model), effects=("torque_ripple",), finished=True)
 
     def again(first: Any, timing: Timing, *_: Any) -> Any:
