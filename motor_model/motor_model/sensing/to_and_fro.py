@@ -31,4 +31,8 @@ class ToAndFro:
 
     def lasts(self, now: int, patience: float) -> bool:
         """Tell whether edges have led nowhere for so long [s] at `now` [ns]."""
-        return self.edges >= MANY and now - self.since >= patience * 1e9
+        return self.edges >= MANY and self.passed(now, patience)
+
+    def passed(self, now: int, patience: float) -> bool:
+        """Tell whether so long [s] has passed at `now` [ns] since the count left the slot before."""
+        return now - self.since >= patience * 1e9
