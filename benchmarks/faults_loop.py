@@ -45,6 +45,7 @@ class Loop:
     supply: float = 0.0  # [V] 0: the motor's voltage
     seed: int = 1
     edges: int = 96  # a turn
+    quadrature: int = 1  # counts a period
     load: dict[str, float] = field(default_factory=dict)  # of the motor's effects
     line: Line = lambda sample: sample  # what the encoder's cable makes of a sample
     delay: float = 0.0  # [s] samples reach the controller so much later
@@ -89,6 +90,7 @@ class Loop:
             slot_irregularity=0.01,
             seed=self.seed,
             single_channel=self.single_channel,
+            quadrature=self.quadrature,
         )
 
     @property

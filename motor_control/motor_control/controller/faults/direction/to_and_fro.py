@@ -27,8 +27,9 @@ WAIT = 1.5  # times the time that this takes
 SHORTEST, SHORTEST_UNKNOWN = 0.05, 0.12
 SLOWEST = 90.0  # [edges/s] at the top speed, where nothing is known of it
 TORQUE = 0.05  # of the voltage limit: RMS of a random one that no model knows of
-# Samples with a new edge, and what they add up to. 96 motors with loads of up to 0.35 at up to 8 % of the top speed,
-# beside a random torque of 2.5 or 5 % (32 minutes at 200 Hz), had three at most of those that add up to 0.1 and more.
+# Samples with a new edge, and what they add up to. 58 motors at up to 8 % of the top speed, with loads of up to 0.25 and
+# another that comes of up to 0.35, beside a random torque of 2.5 or 5 % RMS (19 minutes at 200 Hz), came to three edges
+# and 0.17 at most.
 FEW, MOST = 6, 0.5
 SENTENCE = (
     "Edges are counted to and fro under {:.3g} V, for {:.2g} s, and lead nowhere: see whether both channels of the "
