@@ -27,9 +27,9 @@ WAIT = 1.5  # times the time that this takes
 SHORTEST, SHORTEST_UNKNOWN = 0.05, 0.12
 SLOWEST = 90.0  # [edges/s] at the top speed, where nothing is known of it
 TORQUE = 0.05  # of the voltage limit: RMS of a random one that no model knows of
-# Samples with a new edge, and what they add up to. 58 motors at up to 8 % of the top speed, with loads of up to 0.25 and
-# another that comes of up to 0.35, beside a random torque of 2.5 or 5 % RMS (19 minutes at 200 Hz), came to three edges
-# and 0.17 at most.
+# Samples with a new edge, and what they add up to. 58 motors at up to 8 % of the top speed, under loads of up to 0.25
+# and another that comes of up to 0.35, beside a random torque of 2.5 or 5 % RMS (19 minutes at 200 Hz), came to no more
+# than three of these with a sum of 0.17.
 FEW, MOST = 6, 0.5
 SENTENCE = (
     "Edges are counted to and fro under {:.3g} V, for {:.2g} s, and lead nowhere: see whether both channels of the "
