@@ -26,7 +26,7 @@ LOSSES = (
     (4, "A"),
 )  # counts a period, and what is lost; without A the others count nothing
 FLANKS = {1: 2.0, 2: 1.0, 4: 0.5}  # of one channel, a count
-AT_REFERENCE, AFTER = 1.5, 3.0  # [s]
+AT_REFERENCE, AFTER = 1.5, 4.0  # [s]
 
 
 @dataclass
