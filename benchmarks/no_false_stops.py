@@ -85,12 +85,14 @@ motor's, a third the fault checks', a sixth copies of frozen records, and no fun
 | 9f79ef79 | 1600000 on | 200 Hz | usual | 50 | 0.5 | none |
 | 9f79ef79 | 1600100 on | 1 kHz | usual | 6 | 0.06 | none |
 | ec3aeb85 | 1601000 on | 200 Hz | usual | 300 | 3.0 | none |
+| 345e8e91 | 1700000 on | 200 Hz | usual | 150 | 1.5 | none |
+| 345e8e91 | 1700000 on | 1 kHz | usual | 50 | 0.5 | none |
 
 Of the rules as they are since 25ad2ca (later only a `voltage_limit` of 0 and other parameters that come and go were
 added, and rules of a controller that is held up, which no run has) these seven rows were run: 11.8 hours at 200 Hz
 and 10.3 at 1 kHz, none stopped. At c3dfc581 a rule was added that asks a model alone, of a motor
 that gains speed as it could not: the three rows after them. At 9f79ef79 one that asks two channels, of edges that
-lead nowhere: the last three rows.
+lead nowhere: the three rows after those. At 345e8e91 it asks a model under less voltage, too: the last two rows.
 
 Seed 3000073 (all conditions, no model): a motor that has only crawled, at up to 0.5 % of its top speed, on a disc of
 4,000 edges beside a random torque of 2.5 %: 19 edges in 1.9 s, whose periods jump as the torque pushes. It shows what
