@@ -18,8 +18,8 @@ FEWEST_WINDOWS = 10  # in the motion: a random walk of so many steps leaves the 
 FEWEST_CHANGES = 20  # each way: a value that only rises fits any window
 MOST_COUNTS = 10_000  # in a window
 # Counts that a row may have above the largest mean of a window; and times that mean, in a multiple of a window that
-# fits, for a quick motor turns faster within one. Measured: 34 of -31.3 to 32.1 of a motor of 1.7 rows under a command that
-# changed more often than its window of 10. Where that is enough, 31 of 1,500 logs of plain counts are running means.
+# fits, for a quick motor turns faster within one. Measured: 34 of -31.3 to 32.1 of a motor of 1.7 rows under a command
+# that changed more often than its window of 10. Where that is enough, 31 of 1,500 logs of plain counts are such means.
 ROOM, PEAK = 1, 1.5
 NEAR_MEAN = 0.95  # of the rows in motion have nearly the mean of their window; by jitter and ripple not all
 OFF_GRID = 0.2  # of a count: what is farther beside is no count
