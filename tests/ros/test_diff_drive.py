@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable
+from itertools import count
 from math import sin
 from subprocess import Popen
 
@@ -21,6 +22,7 @@ from workbench import DOMAIN, Bench, end
 from motor_examples.diff_drive import drive, wheel
 from motor_examples.diff_drive.kinematics import STILL
 from motor_examples.diff_drive.kinematics import Twist as Velocity
+from motor_examples.diff_drive.motor import ASK_AGAIN
 from motor_examples.diff_drive.node import DiffDrive
 from motor_model.sample import Info, Sample
 from motor_msgs.msg import ControlState
@@ -150,6 +152,33 @@ def test_questions_that_nobody_answers_are_not_kept(bench: Bench) -> None:
         assert motor.wheel.reference_timeout is None and motor.wheel.unsaid_since is not None
     finally:
         hung.destroy_node()
+        node.destroy_node()
+        rclpy.shutdown()
+
+
+def test_a_controller_without_that_parameter_is_asked_again_no_sooner_than_one_that_hangs(bench: Bench) -> None:
+    """It was asked at every look, ten times a second, for as long as it was there."""
+    rclpy.init(args=[], domain_id=int(DOMAIN))
+    node, other = DiffDrive(), rclpy.create_node("motor_control", context=bench._context, namespace="left")
+    bench.executor.add_node(other)
+    try:
+        other.create_publisher(ControlState, "motor/control_state", qos.CONTROL_STATE)
+        motor, asked = node._left, []
+
+        def looked(times: int) -> bool:
+            motor.meet_controller()
+            asked.extend([motor._question] if motor._question not in (None, *asked) else [])
+            rclpy.spin_once(node, timeout_sec=0.02)
+            return len(asked) > 0 and asked[0].done() and next(looks) >= times
+
+        looks = count(1)
+        bench.wait(lambda: looked(5), "looks")
+        assert len(asked) == 1 and motor.wheel.unsaid_since is not None
+        motor._asked_at -= 1.01 * ASK_AGAIN
+        motor.meet_controller()
+        assert motor._question is not asked[0]
+    finally:
+        other.destroy_node()
         node.destroy_node()
         rclpy.shutdown()
 

@@ -95,9 +95,9 @@ class Motor:
         response = future.result()
         if self._question is not future:  # of a controller that was there before
             return
-        self._question = None
         known = response is not None and response.values and response.values[0].type == ParameterType.PARAMETER_DOUBLE
-        if known:
+        if known:  # else it is asked again as one that does not answer is
+            self._question = None
             self.wheel = replace(self.wheel, reference_timeout=response.values[0].double_value, unsaid_since=None)
 
     def _on_speed(self, message: MotorSpeed) -> None:
