@@ -28,6 +28,9 @@ FEWEST_COUNTS = 8  # of an encoder's turn that is made up: slots that are told a
 COUNTS_A_ROW = 30.0
 FINE = (360, 1_000_000)  # counts a turn that stand for a position without steps: at least, at most
 PRINTED = 1e-8  # of a position's unit: how far its turns may be from numbers of 32 bits, printed with 9 decimals
+FINER = 0.5  # of a lattice's step: where 32 bits resolve less than that, half of what they round is off it,
+OFF_STEP = 0.25  # by so much of the step at least
+ENOUGH_FINER = 16  # positions there that are on it are none by chance
 SURE = 3.0  # standard errors within which a step is taken for a simple share of so many turns at most:
 MOST_TURNS = 16
 
@@ -81,11 +84,18 @@ def _is_rounding(lattice: Lattice, values: Floats, turn: float) -> bool:
 
 
 def _are_short(numbers: Floats, step: float, off: float) -> bool:
-    """Whether numbers (K,) on a lattice of a step are of 32 bits but for so much, which is less than they resolve."""
+    """Whether numbers (K,) on a lattice of a step are of 32 bits but for so much, which is less than they resolve.
+
+    An encoder's counts are, too, if a turn has a power of two: but nearer to 0, where 32 bits resolve more, they are on
+    its lattice still.
+    """
     with np.errstate(over="ignore"):
         short = numbers.astype(np.float32)
-    resolved = float(np.spacing(np.max(np.abs(short))))
-    return step < 2.0 * resolved and off < resolved and bool(np.all(np.abs(short - numbers) <= off))
+    resolved = np.spacing(np.abs(short)).astype(np.float64)
+    if step >= 2.0 * resolved.max() or off >= resolved.max() or np.any(np.abs(short - numbers) > off):
+        return False
+    finer = numbers[resolved < FINER * step] / step
+    return len(finer) < ENOUGH_FINER or bool(np.any(np.abs(finer - np.rint(finer)) > OFF_STEP))
 
 
 def _within_a_turn(levels: Floats | None, values: Floats, turn: float) -> Lattice | None:

@@ -108,3 +108,16 @@ def test_turns_of_32_bits_that_are_printed_as_radians_show_no_encoders_step(far:
     printed = np.round(2.0 * np.pi * turns.astype(np.float64), 9)
     count = count_size(radians, printed, np.zeros(400))
     assert (count.edges == 2**18) == seen and count.stands_for != seen
+
+
+@pytest.mark.parametrize(("bits", "turns"), [(12, 3000.0), (13, 1500.0), (14, 700.0)])
+@pytest.mark.parametrize("unit", ["rad", "rev"])
+def test_counts_of_a_power_of_two_a_turn_are_an_encoders_however_far_it_turned(
+    bits: int, turns: float, unit: str
+) -> None:
+    """Near its end 32 bits hold such turns exactly, and resolve no more; near its beginning they resolve more."""
+    way = np.cumsum(np.abs(np.random.default_rng(5).normal(1.0, 0.3, 6000)))
+    counted = np.floor(way * (turns / way[-1]) * 2.0**bits) / 2.0**bits
+    form = CsvForm("t", "u", "y", Kind.POSITION, unit)
+    count = count_size(form, counted * (2.0 * np.pi if unit == "rad" else 1.0), np.zeros(6000))
+    assert count.edges == 2**bits and not count.stands_for
