@@ -8,8 +8,9 @@ import numpy as np
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.detectability import find_undetectable
-from motor_identification.diagnosis.effect_test import list_candidates
+from motor_identification.diagnosis.effect_test import list_candidates, sort_by_table
 from motor_identification.diagnosis.evidence.command_evidence import find_ignored
+from motor_identification.diagnosis.evidence.line_evidence import list_unseen_disc
 from motor_identification.diagnosis.evidence.missed_edges import count_missed_edges
 from motor_identification.diagnosis.result import Alternative, Diagnosis, Finding, Nearest, Verdict, list_vague
 from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
@@ -120,13 +121,16 @@ def _list_gaps(selection: Selection) -> list[float]:
 
 def _list_findings(selection: Selection, model: Fit, gaps: Sequence[float]) -> tuple[Finding, ...]:
     """List what was found in the order of the steps, then missed edges."""
-    findings = [_make_finding(step, model, gap) for step, gap in zip(selection.steps, gaps, strict=True)]
+    findings = [
+        _make_finding(step, model, gap, list_unseen_disc(selection.model, step.found.effect))
+        for step, gap in zip(selection.steps, gaps, strict=True)
+    ]
     missed = find_missed_edges(selection.model)
     return (*findings, *([] if missed is None else [missed]))
 
 
-def _make_finding(step: SelectionStep, model: Fit, gap_after: float) -> Finding:
-    effect, also = step.found.effect, step.rivals
+def _make_finding(step: SelectionStep, model: Fit, gap_after: float, unseen: Sequence[str] = ()) -> Finding:
+    effect, also = step.found.effect, sort_by_table({*step.rivals, *unseen})
     return Finding(
         effect=effect,
         gap_before=step.before.held.gap,

@@ -55,6 +55,17 @@ def has_few_turns(test: CandidateTest) -> bool:
     return EFFECT_BY_NAME[test.effect].on_disc and few
 
 
+def list_unseen_disc(model: Model, effect: str) -> tuple[str, ...]:
+    """List the effects on a disc that stand for a torque once a turn as well, where nothing told of a disc.
+
+    Measured: an eccentricity of an encoder so fine that its counts look like noise, found as such a torque of 0.08 V.
+    """
+    counted = any(data.tells_of_disc for data in model.held.intervals)
+    if counted or EFFECT_BY_NAME[effect].on_disc or not _goes_once_a_turn(model, effect):
+        return ()
+    return tuple(name for name, one in EFFECT_BY_NAME.items() if one.on_disc)
+
+
 def _find_share_seen(model: Model, cycles: float) -> float:
     """Find the share of the travel in which an interval is at most half a wave of so many cycles a turn."""
     travels = [data.gear * data.travel for data in model.estimate.problem.intervals]

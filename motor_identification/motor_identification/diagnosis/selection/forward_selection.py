@@ -9,6 +9,7 @@ from dataclasses import replace
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import refit_without, split_kv
+from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.effect_test import (
     choose_finding,
@@ -131,20 +132,22 @@ def _try_all_effects(selection: Selection, reporter: ProgressReporter) -> list[C
         for effect in sorted(periodic, key=count_parameters):  # an eccentricity is a line in a ripple's spectrum too
             least = max((test.evidence for test in tests), default=0.0)
             tests += try_effects(current, selection.hold_out, [effect], selection.workers, heard, max(least, 0.0))
-        if LOAD_OVER_ANGLE in left and _may_be_load_once_a_turn(tests):
+        if LOAD_OVER_ANGLE in left and _may_be_load_once_a_turn(tests, current):
             tests = _keep_better(tests, try_load_once_a_turn(current, selection.hold_out))
     return sorted(tests, key=lambda test: -test.evidence)
 
 
-def _may_be_load_once_a_turn(tests: Sequence[CandidateTest]) -> bool:
+def _may_be_load_once_a_turn(tests: Sequence[CandidateTest], current: Model) -> bool:
     """Whether a torque that goes round once a turn is tried, the commonest one, whatever a spectrum promises.
 
     That is of a linear response: where a motor stands or starts it holds or helps. Measured: of ripples of 0.15 and
     0.72 V beside frictions of 0.3 and 0.5 V lines explained 11 and 26 of chance's 30, and they were likelier by 64 and
-    45. And beside a disc of few turns, which has to be likelier than such a torque.
+    45. Where nothing counts turns, chance does: times between edges had one of a random torque. And beside a disc of
+    few turns, which has to be likelier than such a torque.
     """
     fitted = any(test.effect == LOAD_OVER_ANGLE and test.model is not test.before for test in tests)
-    return not fitted or any(has_few_turns(test) and is_supported(test) for test in tests)
+    counted = any(data.tells_of_disc for data in current.held.intervals)
+    return (counted and not fitted) or any(has_few_turns(test) and is_supported(test) for test in tests)
 
 
 def _keep_better(tests: Sequence[CandidateTest], again: CandidateTest) -> list[CandidateTest]:

@@ -31,7 +31,9 @@ def _goes_against(signals: Signals, is_speed: bool) -> bool:
     while noisy and 2 * rows * FEWEST <= len(signals):
         rows *= 2
         told, noisy = _compare(signals, is_speed, rows)
-    return told < AGAINST and not noisy
+    if told >= AGAINST or noisy:
+        return False
+    return _compare(signals, is_speed, 2 * rows)[0] < AGAINST  # a loop that holds a load, or answers late, changes that
 
 
 def _compare(signals: Signals, is_speed: bool, rows: int) -> tuple[float, bool]:

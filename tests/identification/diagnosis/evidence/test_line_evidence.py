@@ -19,9 +19,10 @@ from motor_identification.diagnosis.evidence.line_evidence import (
     has_waves,
     is_heavy_load,
     is_no_ripple,
+    list_unseen_disc,
 )
 from motor_identification.estimation.estimate import Estimate
-from motor_identification.measurement.intervals import index_intervals
+from motor_identification.measurement.intervals import Intervals, index_intervals
 from motor_identification.noise.likelihood import Noise
 from motor_identification.periodic.ripple_spectrum import USUAL_RIPPLE
 
@@ -164,3 +165,17 @@ def test_a_load_of_some_turns_takes_away_nearly_all(
     monkeypatch.setattr(type(model), "at_floor", at_floor)
     enough = turns * cycles > thresholds.LEAST_TURNS_OF_LOAD and explains > 1.0
     assert has_waves(test) is (comes_back or (at_floor and enough))
+
+
+@pytest.mark.parametrize(
+    ("counted", "cycles", "rival"),
+    [(False, 1.01, True), (True, 1.01, False), (False, 1.06, False), (False, 3.0, False)],
+)
+def test_a_torque_once_a_turn_may_be_a_disc_where_nothing_tells_of_one(
+    counted: bool, cycles: float, rival: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """An eccentric disc of so many counts that they look like noise was a ripple with certainty."""
+    test = line("torque_ripple", 500.0, ripple_voltage=0.1, ripple_cycles=cycles, ripple_phase=0.0)
+    monkeypatch.setattr(Intervals, "tells_of_disc", counted)
+    assert list_unseen_disc(test.model, "torque_ripple") == (("encoder_eccentricity",) if rival else ())
+    assert list_unseen_disc(test.model, "encoder_eccentricity") == ()

@@ -25,6 +25,7 @@ from motor_identification.diagnosis.selection.forward_selection import (
 from motor_identification.diagnosis.selection.selection import Selection, SelectionStep, begin_selection
 from motor_identification.diagnosis.start import begin
 from motor_identification.estimation.request import Request
+from motor_identification.measurement.intervals import Intervals
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter, Stage
 from motor_identification.recording import check
@@ -218,9 +219,12 @@ def test_two_that_are_promised_together_are_selected_beside_a_torque(
     assert list(select_forward(selection_of(start), SILENT).steps) == (pair if beside else [])
 
 
-@pytest.mark.parametrize("line", [True, False])
-def test_a_load_once_a_turn_is_tried_where_no_line_is_found(line: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(("line", "counted"), [(True, True), (False, True), (False, False)])
+def test_a_load_once_a_turn_is_tried_where_no_line_is_found(
+    line: bool, counted: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Of ripples of 0.15 and 0.72 V beside friction, lines promised nothing, and they were likelier by 64 and 45."""
+    monkeypatch.setattr(Intervals, "tells_of_disc", counted)
     monkeypatch.setattr(forward_selection, "list_candidates", lambda *_: ["torque_ripple"])
     monkeypatch.setattr(forward_selection, "promises_anything", lambda model: False)
     monkeypatch.setattr(forward_selection, "find_pair", lambda *_: [])
@@ -239,8 +243,8 @@ def test_a_load_once_a_turn_is_tried_where_no_line_is_found(line: bool, monkeypa
     monkeypatch.setattr(forward_selection, "try_load_once_a_turn", turn)
     monkeypatch.setattr(forward_selection, "has_few_turns", lambda _: False)
     found = select_forward(selection_of(stub_model(9.0)), SILENT)
-    assert [step.found.effect for step in found.steps] == ([] if line else ["torque_ripple"])
-    assert bool(tried) is not line
+    assert [step.found.effect for step in found.steps] == (["torque_ripple"] if counted and not line else [])
+    assert bool(tried) is (counted and not line)
 
 
 def test_a_load_once_a_turn_is_no_disc_in_few_turns(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from motor_identification.logs.rows import swapped_sign
 from motor_identification.logs.rows.swapped_sign import turn_round
 from motor_identification.logs.signals import Floats, Signals
 
@@ -56,3 +57,11 @@ def test_a_position_with_much_noise_shows_over_many_rows_where_it_goes(speed: fl
     for seed in range(20):
         found, said = turn_round(potentiometer(speed, seed), False)
         assert bool(said) is turned and np.array_equal(found.motion, potentiometer(speed, seed).motion) is not turned
+
+
+@pytest.mark.parametrize(("longer", "turned"), [(-0.6, True), (-0.4, False)])
+def test_spans_twice_as_long_have_to_say_the_same(longer: float, turned: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A position loop that holds a load answers what it went before: over 2 to 32 rows against, beyond not."""
+    told = {1: (-0.1, True), 2: (-0.7, False), 4: (longer, False)}
+    monkeypatch.setattr(swapped_sign, "_compare", lambda _, is_speed, rows: told[rows])
+    assert swapped_sign._goes_against(signals(VOLTAGE), False) is turned
