@@ -108,7 +108,7 @@ WORSE_GAP = 1.5
 # The same of motion that the fits have seen, however likely: beyond, a torque was learned in the place of the motor.
 # Measured: 7.0 of a dead time, friction and inductance in a log one way, for which a slow torque of 3 % stood, likelier
 # by 70, and 60 where it was of five times the supply; 1.9 of a real gearmotor that breaks away.
-NO_MOTION_GAP = 3.0
+TORQUE_AS_MOTOR_GAP = 3.0
 # Of a gap on unseen motion in which nothing certain was found alone: what leaves less is kept, though structure is
 # left. Measured: 0.34 to 0.44 for a friction under a coasting bridge in four logs of two rigs that have more; 0.9 and
 # more of 24 simulated motors with effects outside the table.

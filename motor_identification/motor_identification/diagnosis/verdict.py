@@ -42,7 +42,7 @@ def conclude(
     whether what makes the motion late may be of a sensor that nobody described.
     """
     last = selection.model
-    undetermined = undetermined or list_barred(selection)
+    undetermined = undetermined or list_unjudged_effects(selection)
     base = base if selection.steps else last  # the same effects: one gap, not one of either fit
     model = summarise_fit(last.whitened, search, elapsed)
     gaps = _list_gaps(selection)
@@ -77,7 +77,7 @@ def conclude(
     return replace(found, verdict=Verdict.UNDECIDED) if found.is_of_no_motor else found
 
 
-def list_barred(selection: Selection) -> tuple[str, ...]:
+def list_unjudged_effects(selection: Selection) -> tuple[str, ...]:
     """List the effects that what is left goes with, by time or angle, and that could not be judged.
 
     Nothing says then that it is outside the table. Under a sweep whatever depends on the frequency goes with the time,

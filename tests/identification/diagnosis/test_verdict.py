@@ -9,7 +9,6 @@ from stub_models import StubModel, short_by, stub_model, stub_test
 from stub_selections import selection_of, step_of
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis import verdict as verdict_module
 from motor_identification.diagnosis import verdict as verdicts
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.result import Finding, Nearest, Verdict
@@ -21,7 +20,7 @@ from motor_identification.diagnosis.verdict import (
     find_missed_edges,
     find_nearest,
     leave_out_named,
-    list_barred,
+    list_unjudged_effects,
 )
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.estimation.request import SearchReport
@@ -92,9 +91,9 @@ def test_what_goes_with_time_or_angle_may_be_what_could_not_be_judged(
 ) -> None:
     """A warming-up in a sweep was said not to be in the table."""
     monkeypatch.setattr(type(stub_model(OVER, 0.0)), "structure", (Structure(variable, share, 90.0),))
-    monkeypatch.setattr(verdict_module, "list_candidates", lambda *_: judged)
-    assert list_barred(chosen(stub_model(OVER, 0.0))) == barred
-    assert list_barred(chosen(stub_model(OVER, 0.0), Structure("past", 0.9, 90.0, True, "a ramp"))) == ()
+    monkeypatch.setattr(verdicts, "list_candidates", lambda *_: judged)
+    assert list_unjudged_effects(chosen(stub_model(OVER, 0.0))) == barred
+    assert list_unjudged_effects(chosen(stub_model(OVER, 0.0), Structure("past", 0.9, 90.0, True, "a ramp"))) == ()
 
 
 @pytest.mark.parametrize(

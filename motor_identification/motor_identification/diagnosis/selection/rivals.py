@@ -123,7 +123,7 @@ def _drop_needless(selection: Selection, reporter: ProgressReporter) -> tuple[Se
 
 def _leaves_what_it_should(without: Model, model: Model) -> bool:
     """Decide whether a model without a finding leaves what its random torque does, or hardly more than with it."""
-    if without.held.gap > thresholds.NO_MOTION_GAP * model.held.gap:
+    if without.held.gap > thresholds.TORQUE_AS_MOTOR_GAP * model.held.gap:
         return False
     worse = predicts_far_worse(without.held.gap, model.held.gap)
     return without.complete or not (model.complete or worse)

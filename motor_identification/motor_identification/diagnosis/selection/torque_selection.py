@@ -68,7 +68,7 @@ def _go_on_from(begin: Selection, plain: Selection, reporter: ProgressReporter) 
     selection = _select_both_ways(selection, reporter)
     gap = find_gap_less_gains(selection.model)
     worse = predicts_far_worse(gap, plain.model.held.gap)
-    beyond = gap > thresholds.NO_MOTION_GAP * plain.model.held.gap
+    beyond = gap > thresholds.TORQUE_AS_MOTOR_GAP * plain.model.held.gap
     if worse and begin.model.held.seen and not beyond:  # a gap that was fitted is no prediction
         worse = begun.model.likelihood - selection.model.likelihood > likelihood_threshold()
     return None if worse else selection

@@ -116,8 +116,8 @@ def test_what_the_torque_that_is_left_has_no_need_of_is_dropped(
         (1.0, 3.0, False, 1),
         (2.0, 2.0 * BELOW * thresholds.WORSE_GAP, False, 0),  # neither leaves what its torque does
         (2.0, 2.0 * ABOVE * thresholds.WORSE_GAP, False, 1),
-        (2.0, 2.0 * BELOW * thresholds.NO_MOTION_GAP, True, 0),
-        (2.0, 2.0 * ABOVE * thresholds.NO_MOTION_GAP, True, 1),  # a torque in the place of the motor
+        (2.0, 2.0 * BELOW * thresholds.TORQUE_AS_MOTOR_GAP, True, 0),
+        (2.0, 2.0 * ABOVE * thresholds.TORQUE_AS_MOTOR_GAP, True, 1),  # a torque in the place of the motor
     ],
 )
 def test_a_torque_that_does_not_leave_what_it_should_drops_nothing(

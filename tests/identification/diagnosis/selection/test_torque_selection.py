@@ -58,7 +58,7 @@ def test_a_torque_in_the_place_of_the_motor_is_none(
     step = step_of(stub_test("transport_delay", before, 4.0, 100.0))
     plain = selection_of(seen(stub_model(4.0), True), step)
     begun = selection_of(rescored(plain.model, likelihood=0.0), step)
-    ended = selection_of(seen(stub_model(times * thresholds.NO_MOTION_GAP * 4.0), True))
+    ended = selection_of(seen(stub_model(times * thresholds.TORQUE_AS_MOTOR_GAP * 4.0), True))
     assert (selected(monkeypatch, plain, begun, ended) is ended) is believed
 
 
