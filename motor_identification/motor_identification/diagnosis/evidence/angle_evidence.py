@@ -28,10 +28,11 @@ WINDOW, STEPS = 3.0, 12  # cycles over all turns about the ripple's own that are
 def find_angle_friction(effect: str, without: Model, current: Model) -> Structure | None:
     """Find the friction over the angle that a torque ripple stands in for; None where it does not.
 
+    Nor where the ripple leaves no more than the sensor: what stands in leaves some, unless nothing tells the two apart.
     without: the model that lacks the ripple.
     """
     row = EFFECT_BY_NAME[effect]
-    if not row.periodic or row.on_disc:
+    if not row.periodic or row.on_disc or current.at_floor:
         return None
     ripple_size, own_cycles = (current.estimate.parameters.value(spec.name) for spec in row.parameters[:2])
     rests = list_training_rests(without.estimate, list_error_data(without.estimate))

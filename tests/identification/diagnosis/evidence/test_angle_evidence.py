@@ -60,3 +60,12 @@ def test_it_has_to_gain_more_and_to_be_large_enough(monkeypatch: pytest.MonkeyPa
 def test_only_ripples_are_judged() -> None:
     (step,) = selected("friction").steps
     assert find_angle_friction("coulomb_friction", step.before, replace(step.found.model)) is None
+
+
+def test_a_ripple_that_leaves_no_more_than_the_sensor_stands_in_for_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ten waves a turn that a tachogenerator saw, likelier by 1,984, were dropped for a friction."""
+    (step,) = selected("friction").steps
+    model = step.found.model
+    assert model.above_floor and find_angle_friction("torque_ripple", step.before, model) is not None
+    monkeypatch.setattr(thresholds, "EXPLAINED_GAP", 1.01 * model.held.gap / model.floor)
+    assert find_angle_friction("torque_ripple", step.before, replace(model)) is None
