@@ -219,12 +219,22 @@ def test_two_that_are_promised_together_are_selected_beside_a_torque(
     assert list(select_forward(selection_of(start), SILENT).steps) == (pair if beside else [])
 
 
-@pytest.mark.parametrize(("line", "counted"), [(True, True), (False, True), (False, False)])
+@pytest.mark.parametrize(
+    ("line", "counted", "left", "told"),
+    [
+        (True, True, 0.9, False),
+        (False, True, 0.9, True),
+        (False, False, 0.9, False),
+        (False, True, 0.99 * thresholds.SHRINKING_GAP, True),
+        (False, True, 1.01 * thresholds.SHRINKING_GAP, False),  # it follows a random torque
+    ],
+)
 def test_a_load_once_a_turn_is_tried_where_no_line_is_found(
-    line: bool, counted: bool, monkeypatch: pytest.MonkeyPatch
+    line: bool, counted: bool, left: float, told: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Of ripples of 0.15 and 0.72 V beside friction, lines promised nothing, and they were likelier by 64 and 45."""
     monkeypatch.setattr(Intervals, "tells_of_disc", counted)
+    monkeypatch.setattr(CandidateTest, "relevant", True)
     monkeypatch.setattr(forward_selection, "list_candidates", lambda *_: ["torque_ripple"])
     monkeypatch.setattr(forward_selection, "promises_anything", lambda model: False)
     monkeypatch.setattr(forward_selection, "find_pair", lambda *_: [])
@@ -237,13 +247,13 @@ def test_a_load_once_a_turn_is_tried_where_no_line_is_found(
 
     def turn(current: Model, _: Any) -> CandidateTest:
         tried.append(current)
-        return stub_test("torque_ripple", current, 1.0, 1000.0 / len(tried) ** 9)
+        return stub_test("torque_ripple", current, left * current.held.gap, 1000.0 / len(tried) ** 9)
 
     monkeypatch.setattr(forward_selection, "try_effects", find_no_line)
     monkeypatch.setattr(forward_selection, "try_load_once_a_turn", turn)
     monkeypatch.setattr(forward_selection, "has_few_turns", lambda _: False)
     found = select_forward(selection_of(stub_model(9.0)), SILENT)
-    assert [step.found.effect for step in found.steps] == (["torque_ripple"] if counted and not line else [])
+    assert [step.found.effect for step in found.steps] == (["torque_ripple"] if told else [])
     assert bool(tried) is (counted and not line)
 
 
