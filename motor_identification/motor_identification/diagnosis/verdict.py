@@ -88,14 +88,12 @@ def list_unjudged_effects(selection: Selection) -> tuple[str, ...]:
     certain = [one for one in selection.structure if one.certain]
     if not certain or certain[0].cause:
         return ()
-    named: dict[str, Callable[[str], bool]] = {BY_TIME: comes_slowly, OVER_THE_DISC: _is_periodic}
-    belongs = named.get(certain[0].variable)
-    judged = list_candidates(last.effects, last.held, last.beside_torque)
-    return tuple(
-        name
-        for name in EFFECT_BY_NAME
-        if belongs is not None and belongs(name) and name not in last.effects and name not in judged
-    )
+    families: dict[str, Callable[[str], bool]] = {BY_TIME: comes_slowly, OVER_THE_DISC: _is_periodic}
+    belongs = families.get(certain[0].variable)
+    if belongs is None:
+        return ()
+    known = {*last.effects, *list_candidates(last.effects, last.held, last.beside_torque)}
+    return tuple(name for name in EFFECT_BY_NAME if belongs(name) and name not in known)
 
 
 def _is_periodic(effect: str) -> bool:

@@ -134,8 +134,8 @@ FAMILIES: dict[str, Callable[[MotionHistory, Reach], Floats]] = {
     PAST: _past,
 }
 
-REPEATING = ("angle", "time", "spectrum")  # what comes and goes whatever the motor is asked to do
-OF_SPEED = ("speed", "drive", "speed_voltage", "angle", "time")  # the measured speed is part of the curves
+REPEATING = ("angle", BY_TIME, "spectrum")  # what comes and goes whatever the motor is asked to do
+OF_SPEED = ("speed", "drive", "speed_voltage", "angle", BY_TIME)  # the measured speed is part of the curves
 OF_ONE_RECORDING = (BY_TIME, "spectrum")  # what is different in every recording is learnt and judged in the same one
 
 

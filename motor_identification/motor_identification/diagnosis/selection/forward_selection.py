@@ -82,7 +82,7 @@ def _may_add(finding: CandidateTest, selection: Selection) -> bool:
     least = min((step.found.evidence for step in selection.steps), default=0.0)
     if count >= (thresholds.MOST_FINDINGS if finding.evidence <= least else thresholds.MOST_WITH_STAND_INS):
         return False
-    several = len(selection.steps) - thresholds.MOST_OF_ONE_RESPONSE
+    several = count - thresholds.MOST_OF_ONE_RESPONSE
     return (
         selection.model.held.confirms or several < 0 or (several == 0 and finding.explains > thresholds.STAND_IN_SHARE)
     )
