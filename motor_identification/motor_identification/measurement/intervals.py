@@ -6,13 +6,14 @@ itself is compared. `build_intervals.py` makes them of every kind of recording, 
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import sqrt
+from math import pi, sqrt
 
 import numpy as np
 
 from motor_identification.recording import Bools, Floats, Integers
 
 UNEVEN_ROWS = 0.05  # of a row: what most of them, all but a fifth, differ by where their lengths are by chance
+TURNS_FOLLOWED = 0.1  # of the values that move: so many are less than a turn apart, of a log that follows the turns
 
 
 @dataclass(frozen=True)
@@ -95,6 +96,12 @@ class Intervals:
         low, middle, high = np.quantile(rows, (0.1, 0.5, 0.9))
         own = np.quantile(np.abs(self.duration[1:] - rows), 0.8) < UNEVEN_ROWS * middle
         return bool(own or high - low < UNEVEN_ROWS * middle)
+
+    @property
+    def follows_turns(self) -> bool:
+        """Whether what repeats with the angle would show: of the values that move, some are less than a turn apart."""
+        gone = np.abs(self.speed[1:]) * np.diff(self.time[self.first]) * self.gear
+        return bool(np.any(gone > 0.0) and np.quantile(gone[gone > 0.0], TURNS_FOLLOWED) < 2.0 * pi)
 
     @cached_property
     def fresh(self) -> Bools:

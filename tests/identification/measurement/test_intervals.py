@@ -186,3 +186,19 @@ def test_counts_are_used_to_the_bound_of_what_they_say() -> None:
         off.append([fit.parameters.values[name] / BASE[name] - 1.0 for name in ("kv", "ka")])
     rms = np.sqrt(np.mean(np.square(off), axis=0))
     assert 2e-5 < rms[0] < 2e-4 and 5e-5 < rms[1] < 5e-4
+
+
+@pytest.mark.parametrize(
+    ("slow", "turns", "follows"),
+    [(0.15, 0.9, True), (0.15, 1.1, False), (0.05, 0.9, False), (1.0, 0.1, True), (1.0, 0.0, False)],
+)
+def test_a_log_follows_the_turns_where_some_of_its_values_are_less_than_one_apart(
+    slow: float, turns: float, follows: bool
+) -> None:
+    """A real log has rows 20 s apart, of up to 400 turns each: nothing that goes round once a turn shows in it."""
+    count = 200
+    start = 20.0 * np.arange(count)
+    speed = tau / 20.0 * np.where(np.arange(count) < slow * count, turns, 400.0)
+    data = index_intervals(start, start + 1.0, speed, np.full(count, 0.01))
+    assert data.follows_turns is follows
+    assert index_intervals(start, start + 1.0, speed / 3.0, np.full(count, 0.01), gear=3.0).follows_turns is follows

@@ -145,9 +145,10 @@ def _may_be_load_once_a_turn(tests: Sequence[CandidateTest], current: Model) -> 
     A spectrum is of a linear response: where a motor stands or starts such a torque holds or helps. Measured: of
     ripples of 0.15 and 0.72 V beside frictions of 0.3 and 0.5 V lines explained 11 and 26 of chance's 30, and they were
     likelier by 64 and 45. Where nothing counts turns, chance does: times between edges had one of a random torque.
+    A log of rows 20 s apart cannot show it, and its simulation of every turn took 50 s a fit.
     """
     fitted = any(test.effect == LOAD_OVER_ANGLE and test.model is not test.before for test in tests)
-    return not fitted and any(data.tells_of_disc for data in current.held.intervals)
+    return not fitted and any(data.tells_of_disc and data.follows_turns for data in current.held.intervals)
 
 
 def _has_disc_of_few_turns(tests: Sequence[CandidateTest]) -> bool:

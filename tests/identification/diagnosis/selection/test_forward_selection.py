@@ -220,20 +220,22 @@ def test_two_that_are_promised_together_are_selected_beside_a_torque(
 
 
 @pytest.mark.parametrize(
-    ("line", "counted", "left", "told"),
+    ("line", "counted", "follows", "left", "told"),
     [
-        (True, True, 0.9, False),
-        (False, True, 0.9, True),
-        (False, False, 0.9, False),
-        (False, True, 0.99 * thresholds.SHRINKING_GAP, True),
-        (False, True, 1.01 * thresholds.SHRINKING_GAP, False),  # it follows a random torque
+        (True, True, True, 0.9, False),
+        (False, True, True, 0.9, True),
+        (False, False, True, 0.9, False),
+        (False, True, False, 0.9, False),  # many turns a row
+        (False, True, True, 0.99 * thresholds.SHRINKING_GAP, True),
+        (False, True, True, 1.01 * thresholds.SHRINKING_GAP, False),  # it follows a random torque
     ],
 )
 def test_a_load_once_a_turn_is_tried_where_no_line_is_found(
-    line: bool, counted: bool, left: float, told: bool, monkeypatch: pytest.MonkeyPatch
+    line: bool, counted: bool, follows: bool, left: float, told: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Of ripples of 0.15 and 0.72 V beside friction, lines promised nothing, and they were likelier by 64 and 45."""
     monkeypatch.setattr(Intervals, "tells_of_disc", counted)
+    monkeypatch.setattr(Intervals, "follows_turns", follows)
     monkeypatch.setattr(CandidateTest, "relevant", True)
     monkeypatch.setattr(forward_selection, "list_candidates", lambda *_: ["torque_ripple"])
     monkeypatch.setattr(forward_selection, "promises_anything", lambda model: False)
@@ -254,7 +256,7 @@ def test_a_load_once_a_turn_is_tried_where_no_line_is_found(
     monkeypatch.setattr(forward_selection, "has_few_turns", lambda _: False)
     found = select_forward(selection_of(stub_model(9.0)), SILENT)
     assert [step.found.effect for step in found.steps] == (["torque_ripple"] if told else [])
-    assert bool(tried) is (counted and not line)
+    assert bool(tried) is (counted and follows and not line)
 
 
 def test_a_load_once_a_turn_is_no_disc_in_few_turns(monkeypatch: pytest.MonkeyPatch) -> None:
