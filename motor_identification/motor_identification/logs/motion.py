@@ -180,7 +180,7 @@ def _about_count(form: CsvForm, signals: Signals, edges: int, window: float) -> 
     if edges:
         size = edge_angle(edges, form.gear) / window / unit
         return f"One count ({edges} per revolution) within the window is {size:.4g} {form.unit}."
-    step, noise, _ = find_noise(signals.motion * unit, signals.voltage, 0, window)
+    step, noise, _ = find_noise(signals.motion * unit, signals.voltage, window)
     if step > 0.0:
         counts = tau / (step * window) / float(form.gear)
         return (

@@ -50,7 +50,7 @@ class SpeedSensor:
     frame: float  # [s] for which each value is held; 0 where every row has one of its own
     step: float  # [rad/s] of the lattice of values; 0 where there is none
     sigma: float  # [rad/s] of white noise, independent in each value; 0 where counting is what is known
-    edges_per_revolution: int  # what was said or follows from the step; 0 without
+    edges_per_revolution: int  # of the encoder's shaft: what was said or follows from the step; 0 without
     wrong: int = 0  # values that were left out, since no motor has them
     lengths: Floats | None = None  # [s] of their own rows, where counts were divided by those
 
@@ -75,13 +75,16 @@ def find_speed_sensor(recording: Recording) -> SpeedSensor:
     right[right] = ~mark_wrong_speeds(speed[row][right], recording.voltage[row][right])
     wrong, row, made = int(np.count_nonzero(~right)), row[right], made[right]
     counted = window > LEAST_COUNTED * (frame or recording.info.sample_period)
-    said = recording.info.edges_per_revolution
-    step, sigma, edges = find_noise(speed[row], recording.voltage[row], said, window, counted)
+    said, gear = recording.info.edges_per_revolution, float(recording.info.gear)
+    if said:
+        step, sigma, edges = recording.info.edge_angle / window, 0.0, said
+    else:
+        step, sigma, edges = find_noise(speed[row], recording.voltage[row], window, counted, gear)
     lengths = np.diff(time, prepend=time[0] - window)[row]
     lengths = np.where(lengths < LONGEST_ROW * window, lengths, window)
     if not said and frames is None and is_assumed(recording.info) and np.std(lengths) > SAME_ROW * window:
         by_length = speed[row] * lengths / window  # counts of rows that differ lie on a lattice by their own lengths
-        own, sigma_of_own, counts = find_noise(by_length, recording.voltage[row], 0, window, counted)
+        own, sigma_of_own, counts = find_noise(by_length, recording.voltage[row], window, counted, gear)
         if own > 0.0 and (step <= 0.0 or measure_blur(by_length, own) < SHARPER * measure_blur(speed[row], step)):
             return SpeedSensor(row, made, window, lag, frame, own, sigma_of_own, counts, wrong, lengths)
     return SpeedSensor(row, made, window, lag, frame, step, sigma, edges, wrong)
@@ -106,20 +109,19 @@ def is_assumed(info: Info) -> bool:
 
 
 def find_noise(
-    values: Floats, voltage: Floats, edges: int, window: float, counted: bool = True
+    values: Floats, voltage: Floats, window: float, counted: bool = True, gear: float = 1.0
 ) -> tuple[float, float, int]:
     """Step [rad/s], white noise [rad/s] and counts a turn of the values; one of the first two is 0.
 
     counted: whether they may be counts, so that a lattice is one of counts and not what the values are rounded to.
+    gear: turns of the encoder's shaft, whose those counts are, per turn of the values.
     """
-    if edges:
-        return tau / edges / window, 0.0, edges
     moving = mark_motion(values)
     step, noise = find_lattice(values), estimate_white_noise(values[moving], voltage[moving])
     beyond = NOISE_BEYOND_DIGITS if _list_digits(values, step) or _is_last_bit(step) else NOISE_BEYOND
     counted = counted and step > 0.0 and not _is_of_digits(values, step, window)
     if counted and noise < beyond * COUNT_NOISE * step:
-        return step, 0.0, round(tau / (step * window))
+        return step, 0.0, round(tau / (step * window * gear))
     typical = sqrt(float(np.mean(values**2)))
     return 0.0, max(noise, step / sqrt(12.0)) or UNTOLD * typical, 0
 

@@ -34,6 +34,16 @@ def test_counts_within_a_window_are_found(edges: int, seed: int) -> None:
     assert not without.independent and np.array_equal(without.fresh, with_it.fresh)
 
 
+@pytest.mark.parametrize("said", [True, False])
+def test_counts_are_of_the_encoders_shaft_before_a_gear(said: bool) -> None:
+    """The floor of a gearmotor of 48 : 1 was 48 times as high as its encoder's, if its count and gear were said."""
+    geared = as_speed(recorded(0, 960))
+    info = replace(geared.info, edges_per_revolution=20 if said else 0, gear_ratio=48.0)
+    found = find_speed_sensor(replace(geared, info=info))
+    assert found.edges_per_revolution == 20
+    assert found.step == pytest.approx(find_speed_sensor(geared).step, rel=1e-6) and found.sigma == 0.0
+
+
 @pytest.mark.parametrize("sigma", [0.05, 0.5, 5.0])
 def test_white_noise_is_found_where_there_are_no_counts(sigma: float) -> None:
     recording = noisy(sigma)
@@ -131,7 +141,7 @@ def test_a_lattice_of_printed_digits_is_none_of_counts(step: float, window: floa
     """Whatever their noise: 12,579 counts a turn were assumed of two decimals, of a motor whose speed was smoothed."""
     values = step * np.round(300.0 + 250.0 * np.sin(np.linspace(0.0, 40.0, 1000)))
     assert find_counts(values, window) == (pytest.approx(step) if counts else 0.0)
-    found, sigma, edges = find_noise(values, np.ones(1000), 0, window)
+    found, sigma, edges = find_noise(values, np.ones(1000), window)
     assert (found > 0.0, edges) == (counts > 0, counts)
     assert counts or sigma >= step / sqrt(12.0)
 
@@ -141,7 +151,7 @@ def test_counts_that_come_near_to_a_digit_keep_the_motion_between_rows(near: flo
     """Where speeds change by counts a row, a lattice of digits is taken for noise; one of 0.10003 rad/s is none."""
     step = 0.1 * (1.0 + near)
     level = 120.0 * np.sin(np.linspace(0.0, 40.0, 1000)) + 1.5 * np.random.default_rng(3).standard_normal(1000)
-    found, sigma, edges = find_noise(step * np.rint(level), np.ones(1000), 0, 0.005)
+    found, sigma, edges = find_noise(step * np.rint(level), np.ones(1000), 0.005)
     assert (found > 0.0, edges) == (counts > 0, counts)
     assert (sigma > 0.0) == (counts == 0)
 
