@@ -130,7 +130,8 @@ class CandidateTest:
         said = self.model.score.held_out - self.before.score.held_out
         # A slow torque, which most of the gap may be of, is another one beside what is fast or speaks for itself.
         free = EFFECT_BY_NAME[self.effect].periodic or said > likelihood_threshold()
-        shrinks = self.model.held.gap <= self.held_before.gap * (thresholds.GAP_CHANCE if free else 1.0)
+        tie = thresholds.GAP_TIE if said > thresholds.TIE_LIKELIHOOD else 1.0
+        shrinks = self.model.held.gap <= self.held_before.gap * (thresholds.GAP_CHANCE if free else tie)
         rows = min(self.model.score.scored, thresholds.RELEVANT_ROWS * self.model.measure_lags())
         least = thresholds.RELEVANT_WHITE_SHARE * rows * self._speaking
         return shrinks and said > 0.0 and (2.0 * self.steadiness > least or self.predicts)

@@ -54,6 +54,10 @@ def beside_torque(gap: float, held_out: float, evidence: float = 0.0) -> Model:
         ("quadratic_drag", 1.001, 0.1, False),
         ("quadratic_drag", 0.999 * thresholds.GAP_CHANCE, 1.001 * likelihood_threshold(), True),
         ("quadratic_drag", 0.999 * thresholds.GAP_CHANCE, 0.999 * likelihood_threshold(), False),
+        ("quadratic_drag", 1.0008, 4.8, True),  # a friction of counts of which a row has one or two
+        ("quadratic_drag", 1.001 * thresholds.GAP_TIE, 4.8, False),
+        ("quadratic_drag", 0.999 * thresholds.GAP_TIE, 1.01 * thresholds.TIE_LIKELIHOOD, True),
+        ("quadratic_drag", 0.999 * thresholds.GAP_TIE, 0.99 * thresholds.TIE_LIKELIHOOD, False),
         ("quadratic_drag", 1.001 * thresholds.GAP_CHANCE, 100.0, False),  # it fits the torque instead of the motion
         ("torque_ripple", 0.999 * thresholds.GAP_CHANCE, 0.1, True),
         ("torque_ripple", 1.0, -0.1, False),
