@@ -1,7 +1,8 @@
 """Whether what was found without a random torque is judged again beside one, and which of the two is believed."""
 
 from dataclasses import replace
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -60,6 +61,23 @@ def test_a_torque_in_the_place_of_the_motor_is_none(
     begun = selection_of(rescored(plain.model, likelihood=0.0), step)
     ended = selection_of(seen(stub_model(times * thresholds.TORQUE_AS_MOTOR_GAP * 4.0), True))
     assert (selected(monkeypatch, plain, begun, ended) is ended) is believed
+
+
+@pytest.mark.parametrize(
+    ("by_fit", "volts", "believed"), [(True, 8.1, True), (True, 7.9, False), (False, 7.9, True), (False, 8.1, True)]
+)
+def test_beside_a_torque_beyond_all_that_was_applied_nothing_is_found(
+    by_fit: bool, volts: float, believed: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Four real runs of one level each: a load was likelier by 26 beside 20 V of 7.9, and left as much as before."""
+    monkeypatch.setattr(StubModel, "errors", ErrorModel(0.0, 0.0, 8.0, 0.01))
+    applied = SimpleNamespace(voltage=np.array([0.0, -volts, volts / 2.0]))
+    held = replace(seen(stub_model(4.0), by_fit).held, recordings=cast(Any, (applied,)))
+    plain = selection_of(replace(stub_model(4.0), held=held))
+    ended = selection_of(
+        replace(plain.model, score=plain.model.score), step_of(stub_test("load_bias", plain.model, 3.9, 26.0))
+    )
+    assert (selected(monkeypatch, plain, plain, ended) is ended) is believed
 
 
 @pytest.mark.parametrize(
