@@ -82,6 +82,8 @@ class CandidateTest:
         Unless much of the gap goes, and so not in a few moments. An instant is one of many, and chosen. What comes
         slowly in motion that the fit has seen is what a slow torque does, too, and has to be as likely.
         """
+        if self.before.held.seen and needs_instant(self.effect):
+            least = max(least, thresholds.INSTANT_LIKELIHOOD)
         if self.model.beside_torque and (needs_instant(self.effect) or self._comes_slowly_as_seen):
             least = max(least, thresholds.INSTANT_LIKELIHOOD)
             grows = self._comes_slowly_as_seen and self.model.held.gap > self.held_before.gap

@@ -181,9 +181,9 @@ STEADY_BESIDE_TORQUE = 4.0
 # Of log likelihood without its few best moments, the same whatever a standard error says. Measured: 179 of a bridge
 # that coasts, found as 1.00 ± 0.33 beside gains of runs.
 STEADY_LIKELIHOOD = 30.0
-# Of log likelihood: what is at an instant has to be likelier beside a random torque, for the instant is the best of
-# hundreds. Measured: 13 of a load step that stood in for a friction and a load in one response of a position loop;
-# right ones 28 and more.
+# Of log likelihood: what is at an instant has to be likelier beside a random torque or in motion that the fit has seen,
+# for the instant is the best of hundreds. Measured: 13 of a load step that stood in for a friction and a load in one
+# response of a position loop, 17 where a real wheel coasts at no command alone; right ones 28 and more.
 INSTANT_LIKELIHOOD = 20.0
 # Of a recording: the standard error of an instant, in all of them, from which on nothing came at one. Measured: 0.063
 # and 0.088 for a load step that stood in for a coasting bridge's rest, and a limit, beside slow torques; right ones

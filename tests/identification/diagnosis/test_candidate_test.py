@@ -106,6 +106,25 @@ def test_an_instant_beside_a_torque_is_one_of_many(times: float, steady: float, 
 
 
 @pytest.mark.parametrize(
+    ("effect", "times", "seen", "likely"),
+    [
+        ("load_step", 0.99, True, False),
+        ("load_step", 1.01, True, True),
+        ("load_step", 0.99, False, True),
+        ("load_bias", 0.99, True, True),
+    ],
+)
+def test_an_instant_in_motion_that_was_fitted_is_one_of_many(
+    effect: str, times: float, seen: bool, likely: bool
+) -> None:
+    """A real wheel that coasts at no command alone had a load step, likelier by 17, and a load to drive it before."""
+    before = stub_model(2.0, likelihood=-100.0)
+    before = replace(before, held=replace(before.held, seen=seen))
+    test = CandidateTest(effect, before, stub_model(1.0, likelihood=times * thresholds.INSTANT_LIKELIHOOD - 100.0))
+    assert test.is_likely(likelihood_threshold()) is likely
+
+
+@pytest.mark.parametrize(
     ("times", "steady", "grows", "seen", "likely"),
     [
         (0.99, 9.0, 0.999, True, False),
