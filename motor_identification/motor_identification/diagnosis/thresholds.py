@@ -237,6 +237,9 @@ LEAST_FALSE_MOTION = 100.0
 # everything else in the recording pulls at. Measured: 0.66 and 0.94 for the frictions of two robots beside what is not
 # in the table, 0.17 and less for a delay and a voltage limit in their place.
 HELD_SHARE = 0.5
+# Standard deviations of a logged speed's noise within which a motor stands, if it does so under a voltage for so many
+# of its time constants. Measured: 1.5 rad/s of a motor at rest by its model, behind a filter that was undone.
+STILL_SIGMA, STILL_CONSTANTS = 3.0, 2.0
 # Of the largest voltage in a recording: less need not move any motor.
 HOLDING_VOLTAGE = 0.01
 

@@ -33,8 +33,10 @@ from motor_model.gearing.gear import edge_angle
 from motor_model.sample import Info, Measurement
 
 _FAR = 5.5  # times between the steps of speeds and one count, below the 2π, 9.5 and 57.3 of mistaken units
-# Times finer than a count, and last digits, that a step is one of digits: a wrong unit makes it 360 times finer.
+# Times finer than a count, and last digits, that a step is one of digits: a wrong unit makes it 360 times finer. How
+# near to what a wrong unit makes it, of all there are, a finer one is no digit's: a real 44 is not that of radians.
 _FINER, _FEW_DIGITS = 400.0, 10.0
+_MISTAKEN, _AS_MISTAKEN = (6.0, 2.0 * pi, 30.0 / pi, 180.0 / pi, 60.0, 360.0), 0.03
 # Counts of a row in motion, by median, from which on its speed says as much as the angle: one is then a quarter of it.
 # Of fewer, speeds of single rows are little but their rounding, which the angle does not sum up.
 MANY_A_ROW = 4.0
@@ -213,15 +215,20 @@ def _confirm_edges(form: CsvForm, signals: Signals, edges: int, count: float, wi
 def _check_steps(form: CsvForm, values: Floats, edges: int, count: float) -> None:
     """Speeds that lie on a grid show the size of one count; far from what was said, a unit or a window is wrong.
 
-    But for a grid of printed digits that is finer than any wrong unit makes it: speeds that were timed between edges.
+    But for a grid of printed digits that is finer than any wrong unit makes it, or of the last digit as no wrong unit
+    makes it: speeds that were timed between edges, or smoothed.
     """
     step = find_lattice(values) if len(np.unique(values)) >= LEAST_LEVELS else 0.0
-    if step < count / _FINER and step <= _FEW_DIGITS * printed_digit(values):
+    digit = printed_digit(values)
+    if step < count / _FINER and step <= _FEW_DIGITS * digit:
+        return
+    if 0.0 < step < min(count, 1.5 * digit) and all(abs(count / step / one - 1.0) > _AS_MISTAKEN for one in _MISTAKEN):
         return
     if step > 0.0 and not 1.0 / _FAR < step / count < _FAR:
         raise RecordingError(
             f"Speeds in {form.motion} change in steps of {step:.4g} {form.unit}, but one count ({edges} per "
-            f"revolution) is {count:.4g}: check --unit, --edges-per-revolution and --speed-window."
+            f"revolution) is {count:.4g}: check --unit, --edges-per-revolution and --speed-window, or leave the second "
+            "away if speeds were smoothed or timed."
         )
 
 

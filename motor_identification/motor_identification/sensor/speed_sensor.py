@@ -11,7 +11,7 @@ from motor_identification.sensor.unseen_starts import mark_unseen_starts
 from motor_identification.sensor.value_lattice import find_lattice, measure_blur
 from motor_identification.sensor.white_noise import LEAST_SAMPLES, estimate_white_noise
 from motor_identification.sensor.wrong_speeds import mark_silent_rows, mark_wrong_speeds
-from motor_model.sample import Info
+from motor_model.sample import Info, Measurement
 
 # Times what counting leaves between neighbours, beyond which noise is more than the lattice, so that counting does not
 # matter: UNDC's random telegraph has 1.7, a micromouse's loop in windows of 0.1 s 4.5. Where the step is one of printed
@@ -126,6 +126,21 @@ def find_noise(
     return 0.0, max(noise, step / sqrt(12.0)) or UNTOLD * typical, 0
 
 
+def lies_between_counts(recording: Recording) -> bool:
+    """Whether speeds are no whole counts within a row, as was said, nor by their own rows' lengths, but as noisy.
+
+    Less noisy ones were smoothed as whoever reads a log sees: what is said of them all the same is believed.
+    """
+    info, speed = recording.info, recording.speed
+    if info.measurement is not Measurement.SPEED or not info.edges_per_revolution:
+        return False
+    step = info.edge_angle / (info.speed_window or info.sample_period)
+    lengths = np.diff(recording.time, prepend=recording.time[0] - info.sample_period)
+    both = (speed, speed * lengths / info.sample_period)
+    between = not any(np.mean(_mark_whole(one, step)) > MOSTLY_WHOLE for one in both)
+    return between and not are_smoothed(speed, recording.voltage, step)
+
+
 def find_counts(values: Floats, window: float) -> float:
     """Find the step that values (K,) [rad/s] are counts of within a window [s]; 0 of none, or of printed digits."""
     step = find_lattice(values)
@@ -135,10 +150,14 @@ def find_counts(values: Floats, window: float) -> float:
 def are_smoothed(values: Floats, voltage: Floats, step: float) -> bool:
     """Whether speeds (K,) counted in steps were smoothed: they lie between whole counts, with less noise than those."""
     moving = mark_motion(values)
-    beside = np.abs(values[moving] / step - np.rint(values[moving] / step))
-    if np.count_nonzero(moving) < LEAST_SAMPLES or np.mean(beside < NEAR_WHOLE) > MOSTLY_WHOLE:
+    if np.count_nonzero(moving) < LEAST_SAMPLES or np.mean(_mark_whole(values[moving], step)) > MOSTLY_WHOLE:
         return False
     return estimate_white_noise(values[moving], voltage[moving]) < SMOOTHER * COUNT_NOISE * step
+
+
+def _mark_whole(values: Floats, step: float) -> Bools:
+    """Mark values (K,) that are near to whole steps."""
+    return np.asarray(np.abs(values / step - np.rint(values / step)) < NEAR_WHOLE)
 
 
 def _list_digits(values: Floats, step: float) -> list[tuple[float, float]]:

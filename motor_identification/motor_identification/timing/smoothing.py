@@ -20,7 +20,7 @@ from motor_identification.noise.error_data import log_likelihood, make_error_dat
 from motor_identification.noise.error_learning import learn_error_model
 from motor_identification.recording import Recording
 from motor_identification.sensor.held_samples import find_frames
-from motor_identification.sensor.speed_sensor import find_counts
+from motor_identification.sensor.speed_sensor import find_counts, lies_between_counts
 from motor_identification.sensor.value_lattice import find_lattice, measure_scatter
 from motor_identification.timing.shaped_fit import Shaper
 from motor_identification.timing.speed_filter import BILINEAR, KINDS, LEAST_ROWS, MEAN, MEMORY, SpeedFilter
@@ -64,13 +64,14 @@ def find_filter(shaper: Shaper, timings: Sequence[Timing]) -> Timing:
     """Find the filter that speeds passed, and of some timings the likeliest with it.
 
     The first of `timings` as it is where they passed none. Where it was said how they were made, only a lattice is sign
-    enough.
+    enough; or that they lie between the counts that were said.
     """
     recordings = shaper.recordings
     if any(find_frames(one.time, one.speed) is not None for one in recordings):  # each is shown several times
         return timings[0]
     are_open = all(map(is_open, recordings))
     means = find_means(recordings) if are_open else ()
+    are_open = are_open or all(map(lies_between_counts, recordings))
     if not means and _are_counts(recordings):
         return timings[0]
     each = [Likelihood(shaper, timing) for timing in timings]

@@ -88,7 +88,7 @@ def find_timing(
 def _find_voltages(shaper: Shaper) -> Timing | None:
     """Find whether voltages held until their rows, of counts, and of speeds of said counts, maybe behind a filter."""
     speeds = all(recording.info.measurement is Measurement.SPEED for recording in shaper.recordings)
-    found = find_filter(shaper, (ASSUMED,)) if speeds else ASSUMED
+    found = find_filter(shaper, (ASSUMED, UNTIL)) if speeds else ASSUMED
     if found.filter:
         shaper = replace(shaper, recordings=found.set_on(shaper.recordings))
     found = replace(UNTIL, filter=found.filter) if held_until(shaper) else found

@@ -2,6 +2,8 @@
 
 from dataclasses import replace
 from math import sqrt, tau
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
@@ -19,6 +21,7 @@ from motor_identification.sensor.speed_sensor import (
     find_counts,
     find_noise,
     find_speed_sensor,
+    lies_between_counts,
 )
 
 
@@ -218,3 +221,26 @@ def test_counts_divided_by_rows_of_different_lengths_are_not_smoothed() -> None:
     counted = np.diff(np.floor(np.cumsum(20.3 * lengths)), prepend=0.0) / lengths
     assert not are_smoothed(counted, np.ones(1000), 1.0)
     assert are_smoothed(np.convolve(counted, np.full(9, 1.0 / 9.0), "valid"), np.ones(992), 1.0)
+
+
+@pytest.mark.parametrize(
+    ("keeps", "edges", "swing", "between"),
+    [
+        (0.0, 2304, 1.0, False),  # counts as they are
+        (0.5, 2304, 1.0, True),  # smoothed, and as noisy as they are rough
+        (0.8, 2304, 0.0, False),  # smoothed as whoever imports it sees
+        (0.5, 0, 1.0, False),  # nothing was said
+    ],
+)
+def test_said_counts_that_lie_between_whole_ones_were_smoothed(
+    keeps: float, edges: int, swing: float, between: bool
+) -> None:
+    """A toy's 2,304 counts a turn at 20 Hz, of which its program kept a half: no filter was looked for."""
+    rng, row = np.random.default_rng(3), 0.05
+    angle = np.cumsum(60.37 + swing * 60.0 * rng.standard_normal(600).clip(-1.0, 1.0))
+    speed = np.diff(np.floor(angle), prepend=0.0) * tau / 2304 / row
+    for k in range(1, len(speed)):
+        speed[k] = keeps * speed[k - 1] + (1.0 - keeps) * speed[k]
+    info = replace(as_speed(recorded(0, 96)).info, edges_per_revolution=edges, sample_period=row, speed_window=row)
+    log = SimpleNamespace(info=info, time=row * np.arange(600), voltage=np.ones(600), speed=speed)
+    assert lies_between_counts(cast(Recording, log)) is between

@@ -24,12 +24,14 @@ def explains_standstills(before: Model, after: Model) -> bool:
 
 def was_held(model: Model) -> bool:
     """Decide whether the motor stood under a voltage anywhere, and what holds it could show."""
-    return any(bool(find_held_intervals(recording, data).any()) for recording, data, _ in _list_motions(model))
+    lag = model.estimate.parameters.time_constant
+    return any(bool(find_held_intervals(recording, data, lag).any()) for recording, data, _ in _list_motions(model))
 
 
 def measure_false_motion(model: Model) -> float:
     """Measure simulated travel where the motor stood under a voltage: the sum of squares, in units of the sensor's."""
-    return sum(_sum_false_motion(motion, model.noise.share) for motion in _list_motions(model))
+    lag = model.estimate.parameters.time_constant
+    return sum(_sum_false_motion(motion, model.noise.share, lag) for motion in _list_motions(model))
 
 
 def _list_motions(model: Model) -> list[Motion]:
@@ -40,18 +42,19 @@ def _list_motions(model: Model) -> list[Motion]:
     return rows
 
 
-def _sum_false_motion(motion: Motion, share: float) -> float:
+def _sum_false_motion(motion: Motion, share: float, lag: float) -> float:
     recording, data, increments = motion
-    still = find_held_intervals(recording, data)
+    still = find_held_intervals(recording, data, lag)
     scatter = np.sqrt(data.floor_squared(share * data.unit)) * data.duration
     unit = np.maximum(np.maximum(scatter, data.slot), data.slack)  # counts without stamps have no slot, but its slack
     return float(np.sum((increments[still] / unit[still]) ** 2))
 
 
-def find_held_intervals(recording: Recording, data: Intervals) -> Bools:
+def find_held_intervals(recording: Recording, data: Intervals, lag: float) -> Bools:
     """Find the intervals in which the motor did not move, though a voltage was applied in the end, and none against it.
 
-    Not by more than one slot in many samples, where slots are what is known of its motion.
+    Not by more than one slot in many samples, where slots are what is known of its motion; nor, for some time constants
+    `lag` [s] of the motor, by more than the noise of logged speeds.
     """
     begin = np.maximum(np.searchsorted(recording.time, data.time[data.first], side="right") - 1, 0)
     end = np.maximum(np.searchsorted(recording.time, data.time[data.last], side="left"), begin + 1)
@@ -61,7 +64,24 @@ def find_held_intervals(recording: Recording, data: Intervals) -> Bools:
     against = np.where(last > 0, _count_between(way < 0, begin, end), _count_between(way > 0, begin, end))
     long = data.duration > LEAST_STANDSTILL * recording.sample_period
     one_slot = long & (data.travel < ABOUT_ONE * data.slot)
-    return np.asarray(((data.speed == 0.0) | one_slot) & (last != 0) & (against == 0))
+    pushed = (last != 0) & (against == 0)
+    return np.asarray(((data.speed == 0.0) | one_slot | _mark_within_noise(data, last * pushed, lag)) & pushed)
+
+
+def _mark_within_noise(data: Intervals, way: Integers, lag: float) -> Bools:
+    """Mark speeds within their noise, of a motor that is pushed one way for some time constants `lag` [s] meanwhile.
+
+    A filter that is undone leaves no zeros: of the digits that were printed, and of all that it kept.
+    """
+    marks = np.zeros(len(data.speed), dtype=bool)
+    if data.window == 0.0:
+        return marks
+    near = (np.abs(data.speed) < thresholds.STILL_SIGMA * data.sigma) & (way != 0)
+    number = np.cumsum(np.diff(np.where(near, way, 0)[data.order], prepend=0) != 0)  # of each stretch, as they follow
+    lasts = np.bincount(number, weights=data.duration[data.order])
+    several = np.bincount(number) > 1
+    marks[data.order] = (several & (lasts > thresholds.STILL_CONSTANTS * lag))[number]
+    return marks & near
 
 
 def _count_between(marks: Bools, begin: Integers, end: Integers) -> Integers:

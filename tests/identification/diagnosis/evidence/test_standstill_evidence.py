@@ -85,8 +85,34 @@ def test_held_intervals_are_without_motion_under_a_voltage_that_came_and_none_ag
     start, end = np.array([1.0, 5.0, 15.0, 31.0, 40.0]), np.array([9.0, 28.5, 40.5, 55.5, 65.0])
     data = index_intervals(start, end, np.zeros(5), np.full(5, 0.1), slot=1.0)
     expected = [False, True, False, True, False]  # nothing applied, held, reversed, held, switched off
-    assert find_held_intervals(recording, data).tolist() == expected
+    assert find_held_intervals(recording, data, 1.0).tolist() == expected
     for slots, held in ((1.49, expected), (1.51, [False] * 5)):
-        assert find_held_intervals(recording, replace(data, speed=slots / data.duration)).tolist() == held
+        assert find_held_intervals(recording, replace(data, speed=slots / data.duration), 1.0).tolist() == held
     brief = index_intervals(start, start + 19.0, np.full(5, 1.0 / 19.0), np.full(5, 0.1), slot=1.0)
-    assert not find_held_intervals(recording, brief).any()
+    assert not find_held_intervals(recording, brief, 1.0).any()
+
+
+@pytest.mark.parametrize(
+    ("sigmas", "rows", "lag", "window", "held"),
+    [
+        (0.99, 2, 0.99, 1.0, True),
+        (1.01, 2, 0.99, 1.0, False),  # it creeps
+        (0.99, 2, 1.01, 1.0, False),  # it has not answered yet
+        (0.99, 1, 0.1, 1.0, False),  # it passes standstill
+        (0.99, 2, 0.99, 0.0, False),  # between measured angles slots tell it
+    ],
+)
+def test_logged_speeds_within_their_noise_are_a_standstill_if_that_lasts(
+    sigmas: float, rows: int, lag: float, window: float, held: bool
+) -> None:
+    """A motor that broke away at 2.3 V stood behind a filter that was undone, which leaves no zeros."""
+    start = np.arange(6.0)
+    voltage = np.where((start >= 2.0) & (start < 2.0 + rows), -1.0, 0.0)
+    recording = cast(
+        Recording, SimpleNamespace(time=np.arange(7.0), voltage=np.append(voltage, 0.0), sample_period=1.0)
+    )
+    data = index_intervals(start, start + 1.0, np.full(6, 5.0), np.full(6, 0.1), window=window)
+    near = sigmas * thresholds.STILL_SIGMA * data.sigma
+    data = replace(data, speed=np.where(voltage != 0.0, near * [1, -1, 1, -1, 1, -1], 5.0))
+    lag *= rows / thresholds.STILL_CONSTANTS
+    assert find_held_intervals(recording, data, lag).tolist() == [held and bool(one) for one in voltage]
