@@ -107,5 +107,6 @@ def _levels(voltage: NDArray[np.float64], apart: float) -> int:
 def _voltages(found: Excitation) -> str:
     if found.low == found.high:
         return f"{found.low:.3g} V all the time"
-    many = {1: "a single level", 20: "20 levels and more"}.get(found.levels, f"{found.levels} levels")
-    return f"{found.low:.3g} to {found.high:.3g} V in {many}{' beside 0' if found.levels == 1 else ''}"
+    beside = "beside 0" if found.low <= 0.0 <= found.high else "but for a few rows"
+    many = {1: f"a single level {beside}", 20: "20 levels and more"}.get(found.levels, f"{found.levels} levels")
+    return f"{found.low:.3g} to {found.high:.3g} V in {many}"

@@ -44,6 +44,16 @@ def test_what_a_log_does_not_show() -> None:
     assert "ka and delays cannot be seen (steady states)" in slow
 
 
+@pytest.mark.parametrize(
+    ("first", "said"), [(0.0, "0 to 4 V in a single level beside 0"), (3.0, "3 to 4 V in a single level but for a few")]
+)
+def test_a_single_level_is_beside_0_where_0_is_there(first: float, said: str) -> None:
+    """A log that begins with a row of what was before has no 0 in it."""
+    volts = np.full(100, 4.0)
+    volts[0] = first
+    assert said in describe_excitation(log(volts, 5.0 * volts))[0]
+
+
 @pytest.mark.parametrize(("backward", "ways"), [(2, "one way only"), (3, "both ways")])
 def test_a_fiftieth_of_the_rows_is_a_way(backward: int, ways: str) -> None:
     speed = np.full(100, 5.0)

@@ -219,9 +219,8 @@ def _unit(table: Table, heading: Heading, kind: Kind, said: Said, period: float,
     if is_in_volts(heading):
         return Unit("", "", ASKED[kind])  # its steps are those of an analogue-to-digital converter
     values = table.numbers(heading.name)
-    guessed = (
-        guess_speed_unit(values, said.speed_window or period) if kind is Kind.SPEED else guess_position_unit(values)
-    )
+    window, rows = said.speed_window or period, None if said.speed_window else stamps
+    guessed = guess_speed_unit(values, window, rows) if kind is Kind.SPEED else guess_position_unit(values)
     if not guessed.name and "count" in guessed.candidates and said.edges_per_revolution not in (None, WHOLE_DEGREES):
         return Unit("count", "as the counts of a turn are said; otherwise: --unit")
     if not guessed.name and stamps is not None:

@@ -64,8 +64,11 @@ def _count_time_constants(values: Floats, drive: Floats) -> float:
     return -float(slope[0]) * len(step)
 
 
-def guess_speed_unit(values: Floats, window: float) -> Unit:
-    """The unit of speeds, shape (K,): the one in which their step is a whole share of a turn within the window [s]."""
+def guess_speed_unit(values: Floats, window: float, stamps: Floats | None = None) -> Unit:
+    """The unit of speeds, shape (K,): the one in which their step is a whole share of a turn within the window [s].
+
+    Times of the rows [s], shape (K,), whose lengths are their windows, say how well that is known.
+    """
     asked = ASKED[Kind.SPEED]
     step = find_lattice(values) if len(values) > 20 and window > 0.0 else 0.0
     if step <= 0.0 or _is_printed(values, step):
@@ -77,8 +80,17 @@ def guess_speed_unit(values: Floats, window: float) -> Unit:
     if len(whole) != 1:
         return Unit("", "", tuple(whole) or asked)
     number = round(counts[whole[0]])
+    if stamps is not None and number * _measure_scatter(stamps) > WHOLE:
+        return Unit("", "", asked)  # of a window that is known no better, a whole number is chance
     why = f"steps of {step:.4g} are {number} counts a turn in {whole[0]}, and no whole number in other units"
     return Unit(whole[0], f"{why}; otherwise: --unit")
+
+
+def _measure_scatter(stamps: Floats) -> float:
+    """Measure how far the lengths of rows usually are from the usual one, relative to it; stamps [s], shape (K,)."""
+    lengths = np.diff(stamps)
+    usual = float(np.median(lengths))
+    return float(np.median(np.abs(lengths - usual))) / usual if usual > 0.0 else 0.0
 
 
 def guess_position_unit(values: Floats) -> Unit:

@@ -112,7 +112,7 @@ def find_turn_counts(table: Table, count: Heading, stamps: Floats) -> TurnCounts
         if heading.quantity is not Quantity.SPEED or heading.side != count.side:
             continue
         speeds = table.numbers(name)
-        unit = heading.unit or guess_speed_unit(speeds, period).name
+        unit = heading.unit or guess_speed_unit(speeds, period, stamps).name
         size = UNITS[unit][1] if unit else None
         if size is None:
             continue

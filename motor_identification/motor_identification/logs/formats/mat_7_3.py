@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_identification.logs.formats.hdf5.reader import Array, Hdf5, read_hdf5
-from motor_identification.logs.formats.mat_elements import MOST_NUMBERS, TooLargeError, Value
+from motor_identification.logs.formats.mat_elements import MOST_NUMBERS, TooLargeError, Value, is_vector
 
 MARK = b"MATLAB 7.3"
 _NUMERIC = {
@@ -91,9 +91,11 @@ def _numbers(array: Array) -> NDArray[np.float64] | None:
     """A matrix of shape (rows, columns); None where it is empty, or no matrix of numbers."""
     if array.references or array.attributes.get(_CLASS) not in _NUMERIC or _EMPTY in array.attributes:
         return None
-    if array.values.ndim != 2 or array.values.dtype.kind not in "iuf":
+    if array.values.dtype.kind not in "iuf":
         return None
-    return np.asarray(array.values.T, dtype=np.float64)
+    if array.values.ndim > 2 and is_vector(array.values.shape):
+        return np.asarray(array.values.reshape(-1, 1), dtype=np.float64)
+    return np.asarray(array.values.T, dtype=np.float64) if array.values.ndim == 2 else None
 
 
 def _streamed(file: Hdf5) -> Iterator[tuple[str, NDArray[np.float64]]]:

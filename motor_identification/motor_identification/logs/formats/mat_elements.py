@@ -157,6 +157,8 @@ def read_matrix(data: memoryview, tally: Tally, depth: int) -> tuple[str, Value 
         return "", None
     shape = _shape(head[1].data, tally.order)
     name = bytes(head[2].data).decode("latin-1")
+    if kind in NUMERIC and not flags & COMPLEX and len(shape) > 2 and is_vector(shape):
+        return name, _numbers(next(parts, None), (prod(shape), 1), tally)
     if kind in NUMERIC and not flags & COMPLEX and len(shape) == 2:
         return name, _numbers(next(parts, None), shape, tally)
     if kind == OBJECT and prod(shape) == 1 and depth < DEEPEST:
@@ -188,6 +190,11 @@ def read_numbers(matrix: memoryview, tally: Tally) -> NDArray[Any] | None:
         return None
     _, shape, _, *rest = split_elements(matrix, 0, tally.order)
     return _numbers(next(iter(rest), None), _shape(shape.data, tally.order), tally)
+
+
+def is_vector(shape: tuple[int, ...]) -> bool:
+    """Whether a matrix is long in one dimension only, as 1 × 1 × samples: so Simulink logs a matrix of one number."""
+    return sum(size != 1 for size in shape) <= 1
 
 
 def _shape(data: memoryview, order: str) -> tuple[int, ...]:

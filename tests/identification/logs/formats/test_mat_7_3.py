@@ -43,6 +43,21 @@ def test_matrices_and_structs(tmp_path: Path) -> None:
     assert table.numbers("log.u").tolist() == VOLTS.tolist() and table.numbers("both 2").tolist() == VOLTS.tolist()
 
 
+@pytest.mark.parametrize(("shape", "names"), [((-1, 1, 1), ["t", "u", "y"]), ((-1, 2, 1), ["t", "u"])])
+def test_a_signal_of_more_dimensions_is_read_where_it_is_long_in_one(
+    tmp_path: Path, shape: tuple[int, ...], names: list[str]
+) -> None:
+    """1 × 1 × samples in MATLAB, whose order is the other way round."""
+    tree: Tree = {
+        "t": matrix(TIME[:, None]),
+        "u": matrix(VOLTS),
+        "y": Stored(SPEED.reshape(shape), {"MATLAB_class": "double"}),
+    }
+    table = read_source(write(tree, tmp_path / "log.mat")).table
+    assert sorted(table.names) == names
+    assert "y" not in names or table.numbers("y").tolist() == SPEED.tolist()
+
+
 def capture(rows: int = 2) -> Tree:
     """A capture of a real-time board: its clock in one struct, its signals in an array of structs."""
     fields = {

@@ -119,9 +119,20 @@ def test_a_file_that_is_too_large_before_anything_is_unpacked(
         read_matlab(tmp_path / "log.mat")
 
 
+@pytest.mark.parametrize(("shape", "names"), [((1, 1, 50), ["t", "u", "y"]), ((2, 1, 25), ["t", "u"])])
+def test_a_signal_of_more_dimensions_is_read_where_it_is_long_in_one(
+    tmp_path: Path, shape: tuple[int, ...], names: list[str]
+) -> None:
+    """Simulink logs a signal that is a matrix of one number as 1 × 1 × samples."""
+    (tmp_path / "log.mat").write_bytes(two(2, bytes(50), 50) + matrix("y", shape, 2, bytes(range(50))))
+    table = read_matlab(tmp_path / "log.mat")
+    assert table.names == names
+    assert "y" not in names or table.numbers("y").tolist() == list(range(50))
+
+
 @pytest.mark.parametrize("dimensions", [1, 2, 32, 33, 10**6])
 def test_a_matrix_has_a_few_dimensions(tmp_path: Path, dimensions: int) -> None:
-    """A product of a million of them would take minutes. Matrices of more than two are left out."""
+    """A product of a million of them would take minutes. Other matrices of more than two are left out."""
     odd = matrix("odd", (1,) * dimensions if dimensions < 10**6 else (2**31 - 1,) * dimensions, 2, bytes(1))
     (tmp_path / "log.mat").write_bytes(two(2, bytes(50), 50) + odd)
     if dimensions in (2, 32):
