@@ -34,6 +34,7 @@ from motor_identification.logs.formats.mat_elements import (
 IDDATA = CLASS + "iddata"
 REFERENCE = 0xDD000000  # the first number of a reference to objects
 BESIDE = 2  # cells before those of the properties
+SHOWN = 8  # names of what is left out
 IN_CELL = 1  # a property whose value is in a cell; of other kinds are names and truth values
 # What leads from an object to its signals: the properties of the classes that hold them.
 INNER = {
@@ -49,12 +50,20 @@ Floats = NDArray[np.float64]
 
 
 def spread_iddata(variables: Mapping[str, Value]) -> tuple[dict[str, Value], tuple[str, ...]]:
-    """Put the columns of the longest iddata in its place: times, inputs, outputs; the names of others are left out."""
+    """Put the columns of the longest iddata in its place: times, inputs, outputs; and say which others are left out.
+
+    One that was cut from vectors of the file with its columns' names, as long or longer, is left out beside them.
+    """
     sets = {name: _columns(one[IDDATA]) for name, one in variables.items() if isinstance(one, dict) and IDDATA in one}
     sizes = {name: max((len(one) for one in columns.values()), default=0) for name, columns in sets.items()}
     longest = max(sizes, key=lambda name: sizes[name], default="")
     rest = {name: one for name, one in variables.items() if name not in sets}
-    return {**rest, **sets.get(longest, {})}, tuple(name for name in sets if name != longest)
+    columns = sets.get(longest, {})
+    if any(isinstance(own := rest.get(name), np.ndarray) and own.size >= len(one) for name, one in columns.items()):
+        return rest, (f"Left out, beside the vectors that they were cut from: {', '.join([*sets][:SHOWN])}.",)
+    others = [name for name in sets if name != longest]
+    notes = (f"Left out, as another iddata is longer: {', '.join(others[:SHOWN])}.",) if others else ()
+    return {**rest, **columns}, notes
 
 
 def _columns(fields: Value) -> dict[str, Floats]:

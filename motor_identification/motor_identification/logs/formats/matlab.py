@@ -47,7 +47,7 @@ def read_matlab(path: Path, wanted: Collection[str] = (), fewest: int = 2) -> Ta
             signals = _read_signals(data)
             objects = not signals
             variables.update({name: one for name, one in signals.items() if name not in variables})
-        variables, other_sets = spread_iddata(variables)
+        variables, left_out = spread_iddata(variables)
         for name, value in variables.items():
             if name:
                 _collect(name, value, vectors)
@@ -77,7 +77,7 @@ def read_matlab(path: Path, wanted: Collection[str] = (), fewest: int = 2) -> Ta
     taken = {length for length, group in groups.items() if not group.keys().isdisjoint(fitting)}
     others = [name for name, vector in signals.items() if name and len(vector) not in taken]
     notes = [f"Left out, as they have other lengths: {', '.join(others[:8])}."] if others else []
-    notes += [f"Left out, as another iddata is longer: {', '.join(other_sets[:8])}."] if other_sets else []
+    notes += left_out
     notes += [f"Not read: {OBJECTS}; {SAVE_THEM}, if the motion is in them."] if objects else []
     return Table(path, np.arange(1, length + 1), fitting, notes=tuple(notes))
 

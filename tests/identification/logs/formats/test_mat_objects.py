@@ -198,6 +198,18 @@ def test_an_iddata_is_read_with_its_period_names_and_units(tmp_path: Path) -> No
     assert found["time (s)"] == pytest.approx(np.arange(50) * 0.02) and np.array_equal(found["y"], SPEED)
 
 
+@pytest.mark.parametrize(("count", "kept"), [(20, True), (19, False)])
+def test_an_iddata_does_not_take_the_place_of_the_vectors_that_it_was_cut_from(
+    tmp_path: Path, count: int, kept: bool
+) -> None:
+    """A lab's file has u, y and t of the whole run beside the iddata of a part; a `u` of fewer is another's."""
+    vectors = [numbers(values[:count], name) for name, values in (("t", TIME), ("u", DRIVE), ("y", SPEED))]
+    (tmp_path / "log.mat").write_bytes(mat_file(*vectors, iddata("id", fields_of(20, 0.02))))
+    table = read_matlab(tmp_path / "log.mat")
+    assert (table.names == ["t", "u", "y"]) == kept
+    assert ("Left out, beside the vectors that they were cut from: id." in table.notes) == kept
+
+
 def test_of_several_iddata_the_longest_is_read(tmp_path: Path) -> None:
     (tmp_path / "log.mat").write_bytes(mat_file(iddata("id", fields_of(20, 0.02)), iddata("val", fields_of(50, 0.03))))
     table = read_matlab(tmp_path / "log.mat")
