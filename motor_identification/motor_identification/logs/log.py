@@ -44,6 +44,16 @@ ANSWERED = (
 )
 
 
+NUMBERS = {  # what a user calls the numbers of a plant, with their units
+    "edges_per_revolution": ("the counts of a turn", ""),
+    "sample_period": ("the time from row to row", " s"),
+    "speed_window": ("the time that a speed is the mean over", " s"),
+    "speed_lag": ("the age of a speed", " s"),
+    "max_voltage": ("the largest voltage", " V"),
+    "gear_ratio": ("the gear's ratio", ""),
+}
+
+
 @dataclass(frozen=True)
 class Log:
     """What a file holds; `findings` are lines for the user: what was found and what was assumed."""
@@ -87,8 +97,10 @@ def _check_ranges(path: Path, info: Info) -> None:
     for name, (low, high) in RANGES.items():
         value = getattr(info, name)
         if not low <= value <= high:
+            what, unit = NUMBERS.get(name, (name, ""))
             raise RecordingError(
-                f"{path}: {name} comes to {value:.3g}, and must be from {low:g} to {high:g}: check columns and units."
+                f"{path}: {what} comes to {value:.3g}{unit}, and must be from {low:g} to {high:g}{unit}: "
+                "check columns and units."
             )
 
 
