@@ -17,6 +17,7 @@ from motor_identification.logs.rows.drive.logged_levels import split_between_lev
 from motor_identification.logs.rows.drive.unpowered_end import drop_unpowered_end
 from motor_identification.logs.rows.drive.unpowered_start import drop_unpowered_start
 from motor_identification.logs.rows.drive.unread_start import drop_unread_start
+from motor_identification.logs.rows.drive.unread_values import drop_unread_values
 from motor_identification.logs.rows.even_clock import restore_even_clock
 from motor_identification.logs.rows.parts import (
     check_rest,
@@ -117,6 +118,7 @@ def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log
     signals, first = drop_first_rows(signals)
     signals, unpowered = drop_unpowered_start(signals, form)
     signals, off = drop_unpowered_end(signals, form)
+    signals, misread = drop_unread_values(signals, form)
     signals, unread = drop_unread_start(signals, form)
     signals, absurd = drop_absurd_beginnings(signals) if form.kind is Kind.SPEED else (signals, [])
     signals, gaps = split_at_gaps(signals)
@@ -131,6 +133,7 @@ def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log
         *first,
         *unpowered,
         *off,
+        *misread,
         *unread,
         *absurd,
         *gaps,

@@ -35,15 +35,15 @@ def split_at_resets(signals: Signals, form: CsvForm, count_of: ToCounts) -> tupl
     Raises:
         RecordingError: a position wraps at a size that is not known.
     """
-    begins = _mark_wrong_first_rows(signals, count_of)
-    wrong_first, breaks = int(begins.sum()), _Breaks(form)
+    wrong = _find_wrong_first_rows(signals, count_of)
+    signals, begins, breaks = signals.only(~wrong), np.zeros(int(np.count_nonzero(~wrong)), np.bool_), _Breaks(form)
     split = signals.split(begins)
     while (row := _first_jump(split, count_of)) is not None:
         begins[np.searchsorted(signals.lines, split.lines[breaks.add(split, row)])] = True
         split = signals.split(begins)
     said = []
-    if wrong_first:
-        rows = "1 first row" if wrong_first == 1 else f"{wrong_first} first rows"
+    if number := int(np.count_nonzero(wrong)):
+        rows = "1 first row" if number == 1 else f"{number} first rows"
         said.append(f"Left out: {rows}, whose {form.motion} is that of something before.")
     if breaks.tops:
         said.append(f"{form.motion} is reset {_times(len(breaks.tops))}: {len(split.runs)} runs, a bag each.")
@@ -82,15 +82,21 @@ class _Breaks:
         return [row, _row_back(motion, row, run.stop, usual)]
 
 
-def _mark_wrong_first_rows(signals: Signals, count_of: ToCounts) -> Bools:
-    """Mark the second rows (K,) of runs whose first is far from it, as it is from nothing that follows."""
-    begins = np.zeros(len(signals), np.bool_)
+def _find_wrong_first_rows(signals: Signals, count_of: ToCounts) -> Bools:
+    """Find the first row, or the first few in which it stands, of runs (K,) that are far from all that follows."""
+    wrong = np.zeros(len(signals), np.bool_)
     counts = count_of(signals.motion)
     for run in signals.runs.values():
         steps = np.abs(np.diff(counts[run])).astype(np.float64)
-        if len(steps) > FIRST_STEPS and steps[0] > FAR * max(np.max(steps[1 : 1 + FIRST_STEPS]), 1.0):
-            begins[run.start + 1] = steps[0] > np.max(steps[1:])
-    return begins
+        first = int(np.argmax(steps > 0.0))  # the step from this row to the next
+        after = steps[first + 1 :]
+        if (
+            first + 1 < SCRAP
+            and len(after) >= FIRST_STEPS
+            and steps[first] > FAR * max(np.max(after[:FIRST_STEPS]), 1.0)
+        ):
+            wrong[run.start : run.start + first + 1] = steps[first] > np.max(after)
+    return wrong
 
 
 def _row_back(motion: Floats, row: int, stop: int, usual: float) -> int:

@@ -30,6 +30,15 @@ def with_jumps(number: int) -> Floats:
     return there
 
 
+@pytest.mark.parametrize(("standing", "left_out"), [(10, True), (19, True), (20, False)])
+def test_first_rows_that_stand_before_a_leap_are_left_out(standing: int, left_out: bool) -> None:
+    """The angle was not read yet, and its counter had gone on from the run before: no motor goes there at once."""
+    there = np.append(np.zeros(standing), 5000.0 + 10.0 * np.arange(200))
+    signals, said = split_at_resets(rows(there), form("deg"), whole)
+    assert (len(signals) == 200) == left_out
+    assert (said == [f"Left out: {standing} first rows, whose y is that of something before."]) == left_out
+
+
 def test_a_jump_to_somewhere_else_begins_a_run() -> None:
     signals, said = split_at_resets(rows(with_jumps(8)), form("deg"), whole)
     assert [run.stop - run.start for run in signals.runs.values()] == [60] * 8 + [420]
