@@ -107,6 +107,7 @@ def _levels(voltage: NDArray[np.float64], apart: float) -> int:
 def _voltages(found: Excitation) -> str:
     if found.low == found.high:
         return f"{found.low:.3g} V all the time"
-    beside = "beside 0" if found.low <= 0.0 <= found.high else "but for a few rows"
+    near_0 = 0.5 * ALIKE * max(abs(found.low), abs(found.high))
+    beside = "beside 0" if found.low <= near_0 and found.high >= -near_0 else "but for a few rows"
     many = {1: f"a single level {beside}", 20: "20 levels and more"}.get(found.levels, f"{found.levels} levels")
     return f"{found.low:.3g} to {found.high:.3g} V in {many}"

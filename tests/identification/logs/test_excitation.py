@@ -45,7 +45,13 @@ def test_what_a_log_does_not_show() -> None:
 
 
 @pytest.mark.parametrize(
-    ("first", "said"), [(0.0, "0 to 4 V in a single level beside 0"), (3.0, "3 to 4 V in a single level but for a few")]
+    ("first", "said"),
+    [
+        (0.0, "0 to 4 V in a single level beside 0"),
+        (0.039, "0.039 to 4 V in a single level beside 0"),
+        (0.041, "0.041 to 4 V in a single level but for a few rows"),
+        (3.0, "3 to 4 V in a single level but for a few rows"),
+    ],
 )
 def test_a_single_level_is_beside_0_where_0_is_there(first: float, said: str) -> None:
     """A log that begins with a row of what was before has no 0 in it."""
