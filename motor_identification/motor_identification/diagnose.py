@@ -13,7 +13,7 @@ from time import perf_counter
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.effect_test import sort_by_table
 from motor_identification.diagnosis.evidence.sensor_lag import may_lag
-from motor_identification.diagnosis.evidence.static_evidence import find_untold
+from motor_identification.diagnosis.evidence.static_evidence import find_untold, is_told_alone
 from motor_identification.diagnosis.result import Diagnosis, Verdict
 from motor_identification.diagnosis.selection.backward_elimination import eliminate_backward
 from motor_identification.diagnosis.selection.determination import drop_undetermined, drop_undetermined_at_once
@@ -201,6 +201,8 @@ def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tu
     if selection is beside:
         undetermined = undetermined or list_hidden_by_torque(plain, beside)
     if untold := set(find_untold(left.model)) - set(start.model.effects):
+        if selection is beside and is_told_alone(plain.model, left.model):
+            return drop_undetermined(plain, reporter)
         return start, sort_by_table(untold | set(undetermined))
     # What is left of a model that fits a slow torque instead of the motion tells less than the one to begin with.
     return start if fits_slow_torque(left, start) else left, undetermined
