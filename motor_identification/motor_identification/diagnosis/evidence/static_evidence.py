@@ -33,8 +33,8 @@ def find_untold(model: Model) -> tuple[str, ...]:
 def is_told_alone(plain: Model, beside: Model) -> bool:
     """Decide whether a part of what was found beside a torque is told without one, and leaves what the sensor does.
 
-    Measured: a fan under a loop had friction, drag and a late command; a dead zone more, of 1.6 standard errors beside a
-    torque of 0.2 % of the supply, was one effect too many for four places, and nothing was named at 43 × the floor.
+    Measured: a fan under a loop had friction, drag and a late command; a dead zone more, of 1.6 standard errors beside
+    a torque of 0.2 % of the supply, was one effect too many for four places: nothing was named at 43 × the floor.
     """
     return set(plain.effects) < set(beside.effects) and not plain.above_floor and not find_untold(plain)
 
