@@ -28,6 +28,7 @@ RATE_NEIGHBOURS = 3  # changes on either side that tell how fast the disc turns
 CHI2_MEDIAN_SHARE = 0.839  # median over mean of χ² with WINDOW − 3 degrees of freedom
 # Times the variance that counting leaves in a prediction from 6 counts before: that of a line, carried on by one.
 PREDICTED_RATIO = 1.9
+FAST = 0.7  # of the rate that a quarter of fixes exceed: rows by whose noise stamps' jitter is told
 EVEN_ROWS = 0.05  # of a row: how far they may be from even for that
 JITTER_RATIO = 1.8  # times the variance that counting leaves, from which on stamps are said to jitter
 
@@ -129,8 +130,11 @@ def _bound_jitter(recording: Recording, fixes: Fixes) -> float:
     """[s] that stamps of even rows jitter at most: a count is predicted from those and voltages before, where a motor
     whose voltage jumps follows no parabola."""
     early, late = np.quantile(np.diff(recording.time), (0.05, 0.95))
-    noise = estimate_white_noise(recording.edge_count.astype(np.float64), recording.voltage)
-    fast = float(np.quantile(fixes.rate, 0.75))
+    rate = np.interp(recording.time, fixes.time, fixes.rate)
+    counts = np.diff(recording.edge_count, prepend=recording.edge_count[0]) != 0  # a motor that stands has no jitter
+    turning = counts & (rate >= FAST * np.quantile(fixes.rate, 0.75))
+    fast = float(np.median(rate[turning])) if turning.any() else 0.0
+    noise = estimate_white_noise(recording.edge_count.astype(np.float64), recording.voltage, turning)
     if late - early > EVEN_ROWS * early or noise <= 0.0 or fast <= 0.0:
         return inf
     return sqrt(max(noise**2 - PREDICTED_RATIO * UNIFORM_SIGMA**2, 0.0)) / fast

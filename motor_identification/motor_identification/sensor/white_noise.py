@@ -11,7 +11,7 @@ from math import comb, sqrt
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from motor_identification.recording import Floats
+from motor_identification.recording import Bools, Floats
 
 ORDERS = (2, 3, 4)
 PAST = 6  # samples and voltages before that predict the next one
@@ -22,18 +22,21 @@ LEAST_SHARE = 0.05  # of the RMS of values, of what noise is told as a share
 LEAST_PREDICTED = 100  # samples from which on a prediction with 2·PAST + 2 numbers is learned
 
 
-def estimate_white_noise(values: Floats, voltage: Floats) -> float:
+def estimate_white_noise(values: Floats, voltage: Floats, tells: Bools | None = None) -> float:
     """Estimate the standard deviation of white noise in evenly spaced values (K,); 0 where there are too few.
 
     voltage: [V] that held from each sample until the next, shape (K,). A torque that jumps from sample to sample counts
-    as noise.
+    as noise. tells: the values whose noise it is, shape (K,); all, without.
     """
-    if len(values) < LEAST_SAMPLES:
-        return 0.0
-    found = [_trimmed_rms(np.diff(values, n=order)) / sqrt(comb(2 * order, order)) for order in ORDERS]
-    if len(values) >= LEAST_PREDICTED:
-        found.append(_predict(values, voltage))
-    return min(found)
+    marks = np.ones(len(values), dtype=bool) if tells is None else tells
+    found = []
+    for order in ORDERS if np.count_nonzero(marks) >= LEAST_SAMPLES else ():
+        told = np.all(sliding_window_view(marks, order + 1), axis=1)
+        if np.count_nonzero(told) >= LEAST_SAMPLES - order:
+            found.append(_trimmed_rms(np.diff(values, n=order)[told]) / sqrt(comb(2 * order, order)))
+    if found and len(values) >= LEAST_PREDICTED:
+        found.append(_predict(values, voltage, marks))
+    return min(found, default=0.0)
 
 
 def estimate_relative_noise(values: Floats) -> float:
@@ -62,8 +65,8 @@ def _trimmed_rms(values: Floats) -> float:
     return sqrt(float(np.mean(kept**2)) / KEPT_SHARE)
 
 
-def _predict(values: Floats, voltage: Floats) -> float:
-    """Standard deviation of what a linear prediction from the past leaves.
+def _predict(values: Floats, voltage: Floats, marks: Bools) -> float:
+    """Standard deviation of what a linear prediction from the past leaves of the marked values.
 
     The voltage in a sample's own row predicts it in logs whose rows hold the voltage until then. Where it is lower the
     higher the sample, it is a controller's answer to that sample, noise and all, and predicts nothing.
@@ -75,4 +78,6 @@ def _predict(values: Floats, voltage: Floats) -> float:
     if weights[-1] < 0.0:
         columns = columns[:, :-1]
         weights = np.linalg.lstsq(columns, target, rcond=1e-10)[0]
-    return _trimmed_rms(target - columns @ weights) * sqrt(len(target) / (len(target) - columns.shape[1]))
+    return _trimmed_rms((target - columns @ weights)[marks[PAST:]]) * sqrt(
+        len(target) / (len(target) - columns.shape[1])
+    )

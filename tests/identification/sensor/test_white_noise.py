@@ -39,6 +39,17 @@ def test_white_noise_on_a_smooth_motion_is_recovered(sigma: float, seed: int) ->
     assert noise_of(motion + sigma * random.standard_normal(2000)) == pytest.approx(sigma, rel=0.08)
 
 
+@pytest.mark.parametrize("turning", [0.2, 0.6])
+def test_noise_of_some_values_is_told_by_those(turning: float) -> None:
+    """A motor that stands shows none of the noise that it has where it turns."""
+    marks = np.arange(4000) % 1000 < 1000 * turning
+    values = np.cumsum(0.01 * marks) + marks * np.random.default_rng(4).standard_normal(4000)
+    assert estimate_white_noise(values, np.zeros(4000), marks) == pytest.approx(1.0, rel=0.08)
+    assert estimate_white_noise(values, np.zeros(4000)) < 0.9 and noise_of(np.zeros(30)) == 0.0
+    few = np.arange(4000) < 23
+    assert estimate_white_noise(values, np.zeros(4000), few) == 0.0
+
+
 def test_wrong_samples_are_left_out() -> None:
     random = np.random.default_rng(1)
     values = random.standard_normal(2000)
