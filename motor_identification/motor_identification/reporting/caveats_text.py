@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 
 from motor_identification.diagnosis.result import Diagnosis, Finding
-from motor_identification.diagnosis.thresholds import EXPLAINED_GAP
+from motor_identification.diagnosis.thresholds import EXPLAINED_GAP, WILD_TIME
 from motor_identification.noise.error_model import Disturbance
 from motor_identification.recording import Floats
 from motor_identification.reporting.numbers import format_measured
@@ -32,6 +32,8 @@ GAINS_OR_CURVE = (
     "the same voltage, so that it may as well be a curve over the voltage, of the bridge or of a friction: repeat a "
     "run at the voltage of another."
 )
+FEW = "Most of that gap is in {} of {:,} values ({}): {:.3g} rad/s is left without. Look at stamps and values there."
+MOST, NAMED = 0.9, 2  # of a gap's square that is most of it; instants that are named
 MIDDLE = (0.1, 0.9)  # shares of a run's driven samples between which its voltages are said to lie
 NEAR = 0.02  # of the largest voltage: below it nothing drives, and voltages that differ by no more are the same
 
@@ -79,6 +81,24 @@ def describe_disturbance(diagnosis: Diagnosis) -> str:
     torque = f"The rest is random: a torque of {strength}, correlated over {time}."
     strong = TOO_STRONG.format(largest) if found.rms_voltage > largest else ""
     return torque + strong + _describe_breakaway(diagnosis.findings, found)
+
+
+def describe_few_values(diagnosis: Diagnosis) -> str:
+    """Say in how few values a gap is that neither sensor nor torque leaves; empty where it is in many, or none is."""
+    held = diagnosis.after
+    squares = held.weight * held.residuals**2
+    if not diagnosis.gap_after > EXPLAINED_GAP * diagnosis.noise_floor > 0.0:
+        return ""
+    worst = np.argsort(-squares)
+    few = int(np.searchsorted(np.cumsum(squares[worst]), MOST * squares.sum())) + 1
+    if few > WILD_TIME * len(squares):
+        return ""
+    time = np.concatenate([data.time[data.last] for data in held.intervals])[held.counted]
+    names = [one.uri.rsplit("/", 1)[-1] for one in held.recordings for _ in held.recordings[1:2]]
+    run = np.repeat(np.arange(len(held.intervals)), [int(marks.sum()) for marks in held.scored])
+    where = [f"{time[k]:.4g} s" + (f" of {names[run[k]]}" if names else "") for k in sorted(worst[:NAMED])]
+    left = float(np.sqrt(squares[worst[few:]].sum() / held.weight[worst[few:]].sum()))
+    return FEW.format(few, len(squares), " and ".join(where[:few]) + (", the worst" if few > NAMED else ""), left)
 
 
 def _describe_breakaway(findings: Sequence[Finding], torque: Disturbance) -> str:

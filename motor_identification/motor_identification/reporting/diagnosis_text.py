@@ -8,7 +8,12 @@ from motor_identification.diagnosis.result import Diagnosis, Finding, Verdict, l
 from motor_identification.diagnosis.thresholds import EXPLAINED_GAP
 from motor_identification.discrepancy.missing_torque import describe_torque, estimate_missing_torque
 from motor_identification.discrepancy.region_text import describe_error
-from motor_identification.reporting.caveats_text import describe_disturbance, describe_gains, describe_supply
+from motor_identification.reporting.caveats_text import (
+    describe_disturbance,
+    describe_few_values,
+    describe_gains,
+    describe_supply,
+)
 from motor_identification.reporting.diagnosis_table import format_parameters
 from motor_identification.reporting.names import capitalize, effect_name, join_effects, join_names
 from motor_identification.reporting.numbers import describe_change, format_ratio
@@ -97,13 +102,14 @@ def _describe_found(findings: Sequence[Finding], sure: bool = True) -> str:
 def _explained(diagnosis: Diagnosis) -> str:
     model = "it" if len(diagnosis.findings) == 1 else "them"
     text = f"{_describe_found(diagnosis.findings)}. With {model}, {_describe_gap_reduction(diagnosis)}."
-    parts = (text, describe_disturbance(diagnosis), _describe_undetermined(diagnosis), _describe_untestable(diagnosis))
+    rest = (describe_few_values(diagnosis), describe_disturbance(diagnosis))
+    parts = (text, *rest, _describe_undetermined(diagnosis), _describe_untestable(diagnosis))
     return " ".join(part for part in parts if part)
 
 
 def _nothing_missing(diagnosis: Diagnosis) -> str:
     text = f"Nothing is missing: {_describe_gap(diagnosis)}."
-    return " ".join(part for part in (text, describe_disturbance(diagnosis)) if part)
+    return " ".join(part for part in (text, describe_few_values(diagnosis), describe_disturbance(diagnosis)) if part)
 
 
 def _describe_structure(diagnosis: Diagnosis) -> str:
@@ -202,7 +208,7 @@ def _undecided(diagnosis: Diagnosis) -> str:
         parts.append(UNPREDICTED)
     if diagnosis.is_of_no_motor and follows:  # else the same was said, and what to check
         parts.append(NO_MOTOR)
-    parts.append(describe_disturbance(diagnosis))
+    parts += [describe_few_values(diagnosis), describe_disturbance(diagnosis)]
     if diagnosis.time_limit:
         parts.insert(0, OUT_OF_TIME.format(diagnosis.time_limit))
     if diagnosis.undetermined:

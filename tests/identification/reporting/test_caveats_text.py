@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from motor_identification.diagnosis.result import Diagnosis, Verdict
+from motor_identification.measurement.intervals import index_intervals
 from motor_identification.noise.error_model import Disturbance
 from motor_identification.reporting.diagnosis_text import summarize_diagnosis
 
@@ -41,6 +42,28 @@ def test_a_torque_that_leaves_nothing_is_not_what_is_left(
     text = summarize_diagnosis(replace(one, disturbance=torque, gap_after=gap * one.noise_floor))
     assert ("What is left is no random torque: none is found beside it" in text) is none
     assert ("The rest is random" in text) is not none
+
+
+@pytest.mark.parametrize("verdict", [Verdict.EXPLAINED, Verdict.NOTHING_MISSING, Verdict.UNDECIDED])
+@pytest.mark.parametrize(
+    ("values", "off", "gap", "said"),
+    [(2, 30.0, 5.0, True), (2, 30.0, 1.0, False), (2, 3.0, 5.0, False), (6, 30.0, 5.0, False)],
+    ids=["few", "at the floor", "in all", "many"],
+)
+def test_a_gap_in_few_values_is_said_to_be_there(
+    variants: dict[Verdict, Diagnosis], verdict: Verdict, values: int, off: float, gap: float, said: bool
+) -> None:
+    """Four late rows of 650 left eleven times the floor of a real motor, and 'the rest is random' alone was said."""
+    start = np.arange(100.0)
+    speed = 9.0 + np.where(np.arange(100) % 7 == 0, 1.0, -1.0)
+    speed[10 : 10 + values] += off
+    data = index_intervals(start, start + 1.0, speed, np.full(100, 0.1))
+    one = variants[verdict]
+    held = replace(one.after, intervals=(data,), angles=(9.0 * np.arange(101.0),), instants=(), responses=())
+    held = replace(held, recordings=held.recordings[:1], scored=(np.ones(100, dtype=bool),))
+    text = summarize_diagnosis(replace(one, after=held, gap_after=gap * one.noise_floor))
+    assert ("Most of that gap is in 2 of 100 values (11 s and 12 s): 1 rad/s is left without" in text) is said
+    assert ("Most of that gap" in text) is said
 
 
 @pytest.mark.parametrize(("error", "said"), [(0.44, True), (0.46, False)])
