@@ -1,11 +1,12 @@
 """A diagnosis in words: what was missing, what that explains, what is left, and what to do next."""
 
 from collections.abc import Sequence
+from math import inf
 
 from motor_identification.diagnosis.candidate_model import find_lasting_interval
 from motor_identification.diagnosis.evidence.command_evidence import Ignored, find_ignored
 from motor_identification.diagnosis.result import Diagnosis, Finding, Verdict, list_vague
-from motor_identification.diagnosis.thresholds import EXPLAINED_GAP
+from motor_identification.diagnosis.thresholds import EXPLAINED_GAP, SURE_SIZE
 from motor_identification.discrepancy.missing_torque import describe_torque, estimate_missing_torque
 from motor_identification.discrepancy.region_text import describe_error
 from motor_identification.reporting.caveats_text import (
@@ -17,6 +18,7 @@ from motor_identification.reporting.caveats_text import (
 from motor_identification.reporting.diagnosis_table import format_parameters
 from motor_identification.reporting.names import capitalize, effect_name, join_effects, join_names
 from motor_identification.reporting.numbers import describe_change, format_ratio
+from motor_model.effects import EFFECT_BY_NAME
 
 GAP, FITTED_GAP = "validation RMS error (gap)", "RMS error (gap)"
 TOO_SHORT = "The recording is too short to keep a part of it for validation: record more motion."
@@ -94,9 +96,18 @@ def _describe_gap(diagnosis: Diagnosis) -> str:
 
 
 def _describe_found(findings: Sequence[Finding], sure: bool = True) -> str:
-    each = [f"{effect_name(one.effect)} ({format_parameters(one)})" for one in findings]
+    """Say which effects were missing; not one of no size that is there because another cannot be without it."""
+    implied = {EFFECT_BY_NAME[one.effect].implies for one in findings}
+    said = [one for one in findings if one.effect not in implied or not _is_of_no_size(one)]
+    each = [f"{effect_name(one.effect)} ({format_parameters(one)})" for one in said]
     were = " was missing" if len(each) == 1 else " were missing"
     return capitalize(join_names(each) + (were if sure else " may be missing"))
+
+
+def _is_of_no_size(finding: Finding) -> bool:
+    """Decide whether a finding's first parameter is none as far as its standard error goes."""
+    value, error = next(iter(finding.parameters.values()), (inf, 0.0))
+    return abs(value - EFFECT_BY_NAME[finding.effect].parameters[0].off) < SURE_SIZE * error
 
 
 def _explained(diagnosis: Diagnosis) -> str:

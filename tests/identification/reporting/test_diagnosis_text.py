@@ -139,6 +139,27 @@ def test_a_finding_of_no_determined_size_may_be_missing_beside_one_that_is(varia
     assert "tell how much" not in summarize_diagnosis(replace(one, verdict=Verdict.UNDECIDED))
 
 
+@pytest.mark.parametrize(
+    ("other", "errors", "said"),
+    [
+        ("static_friction", 2.9, False),
+        ("static_friction", 3.1, True),
+        ("dead_zone", 2.9, True),  # which can be without it
+    ],
+)
+def test_what_has_no_size_and_is_implied_is_not_said_to_be_missing(
+    variants: dict[Verdict, Diagnosis], other: str, errors: float, said: bool
+) -> None:
+    """Three real motors broke away, and 'Coulomb friction (ks = 0 ± 0.014 V)' was said to be missing, too."""
+    one = variants[Verdict.EXPLAINED]
+    (found,) = one.findings
+    friction = replace(found, effect="coulomb_friction", parameters={"ks": (errors * 0.014, 0.014)})
+    second = replace(found, effect=other, parameters={"breakaway_voltage": (0.46, 0.05)})
+    for verdict in (Verdict.EXPLAINED, Verdict.UNDECIDED):
+        text = summarize_diagnosis(replace(one, verdict=verdict, findings=(friction, second)))
+        assert ("Coulomb friction" in text) is said and ("were missing" in text) is said and "0.46" in text
+
+
 def test_where_nothing_was_held_out_the_gap_is_no_validation(variants: dict[Verdict, Diagnosis]) -> None:
     for verdict, one in variants.items():
         said = summarize_diagnosis(replace(one, after=replace(one.after, seen=True)))
