@@ -108,12 +108,11 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
     findings = (
         f"Speeds without counts: each is the mean over {window * 1e3:.4g} ms{assumed}.",
         f"The middle of that window is {lag * 1e3:.4g} ms before the row's time{placed}.",
-        _about_count(form, signals, edges, window),
+        *(smoothed or [_about_count(form, signals, edges, window)]),
         *lengths,
         *signs,
         *turned,
         *means,
-        *smoothed,
     )
     return Motion(signals, values * unit, np.zeros(len(values), np.int64), info, findings)
 

@@ -244,3 +244,14 @@ def test_said_counts_that_lie_between_whole_ones_were_smoothed(
     info = replace(as_speed(recorded(0, 96)).info, edges_per_revolution=edges, sample_period=row, speed_window=row)
     log = SimpleNamespace(info=info, time=row * np.arange(600), voltage=np.ones(600), speed=speed)
     assert lies_between_counts(cast(Recording, log)) is between
+
+
+@pytest.mark.parametrize(("counts", "counted"), [(990_000, True), (1_010_000, False)])
+def test_more_counts_a_turn_than_any_encoder_has_are_digits(counts: int, counted: bool) -> None:
+    """Whole counts a second of rows of 1 ms, behind a filter: a thousand times as many as the encoder's 1,796."""
+    step = tau / counts / 0.001
+    values = step * np.rint(400.0 + 300.0 * np.sin(np.arange(1000) / 90.0))
+    found, sigma, edges = find_noise(values, np.ones(1000), 0.001)
+    assert edges == (counts if counted else 0) and (found > 0.0) is counted
+    assert counted or sigma >= 0.99 * step / sqrt(12.0)
+    assert find_noise(values, np.ones(1000), 0.001, gear=2.0)[2] == counts // 2
