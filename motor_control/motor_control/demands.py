@@ -86,6 +86,9 @@ class Demands:
             self._state = controller.doubt(self._state, STOOD_STILL, at, kind, arrival.number)
         else:
             self._state = controller.refer(self._state, message.data, at, kind, arrival.number)
+        if not asks:
+            for one in self._inputs:  # a 0 ends what waits on the other topics, too
+                one.forget()
 
     def _command_joint(self, message: JointState, arrival: Arrival) -> None:
         demand = joint_demand_of(message, self._config)

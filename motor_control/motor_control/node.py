@@ -89,7 +89,7 @@ class MotorControl(Node):
         return response
 
     def _on_release(self, response: Trigger.Response) -> Trigger.Response:
-        response.success, (response.message, self._state) = True, controller.release(self._state)
+        response.success, (response.message, self._state) = True, controller.release(self._state, time.monotonic())
         return response
 
     def _on_info(self, message: MotorInfo) -> None:

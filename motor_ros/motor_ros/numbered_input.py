@@ -87,7 +87,7 @@ class NumberedInput(Generic[MessageType]):
         waited = _wait_of(about, time.time_ns(), doubt)
         arrival = Arrival(number if counted else None, waited, time.monotonic_ns())
         if self._commanders is None or self._counts(message, arrival):
-            self._held.clear()
+            self.forget()
             self._take(message, arrival)
         else:
             self._held.append((message, arrival))
@@ -104,6 +104,10 @@ class NumberedInput(Generic[MessageType]):
                 self._take(message, arrival)
             else:
                 self._node.get_logger().warning(NOBODY.format(self._subscription.topic_name), throttle_duration_sec=1.0)
+
+    def forget(self) -> None:
+        """Hand nothing on of what waits: it is over."""
+        self._held.clear()
 
     def senders(self, node: Node) -> str:
         """The nodes that can send, in words."""

@@ -31,6 +31,7 @@ OLD = (
     "{:.3g} V on motor/voltage is stamped {:.3g} s {}, as what is played from a recording: it is not obeyed. If it is "
     "yours, set both computers' clocks, or leave the stamp empty."
 )
+STAYS = "The output stays off.", "The output is on, and the motor stays at 0 V."  # when a call is refused: off, on
 JUST_NOW = "Just now, {}: look, then call again."
 UNHEARD = "References are published on {} and nobody hears them: start motor_control in this namespace."
 
@@ -73,7 +74,7 @@ class Plant:
             counts=lambda message, arrival: self.gate.goes_on(message.header.frame_id, arrival.number, arrival.at),
         )
         service = node.create_service(SetBool, "motor/enable", self._on_enable)
-        self._enabling = Callers(node).guard(service, self._would_switch_on, _refuse)
+        self._enabling = Callers(node).guard(service, self._would_switch_on, self._refuse)
         self.publish_info()
 
     def now(self) -> int:
@@ -197,16 +198,16 @@ class Plant:
         if request.data and was_on and not self.gate.enabled:
             refusal = JUST_NOW.format(self.gate.stopped)
         if refusal:
-            return _refuse(request, response, refusal)
+            return self._refuse(request, response, refusal)
         if not request.data:
             self._enabling.refuse_waiting(JUST_NOW.format("it was switched off by motor/enable"))
+        self._input.forget()  # nor does a command from before the switch act that waits for its sender to be known
         self.gate = self.gate.enable(request.data)
         self._changed()
         response.success = True
         response.message = "The output is on." if request.data else OFF
         return response
 
-
-def _refuse(_: SetBool.Request, response: SetBool.Response, why: str) -> SetBool.Response:
-    response.success, response.message = False, f"The output stays off. {why}"
-    return response
+    def _refuse(self, _: SetBool.Request, response: SetBool.Response, why: str) -> SetBool.Response:
+        response.success, response.message = False, f"{STAYS[self.gate.enabled]} {why}"
+        return response

@@ -16,6 +16,7 @@ from workbench import end, start
 
 from motor_model.sample import Info
 from motor_ros import qos
+from motor_ros.graph.acquaintances import SETTLED
 
 
 @pytest.mark.on_time
@@ -170,6 +171,30 @@ def test_release_leaves_the_motor_to_others(plant: FakePlant) -> None:
     for _ in range(5):
         plant.answer(50.0)
     assert len(plant.voltages) == count
+
+
+@pytest.mark.usefixtures("process")
+@pytest.mark.parametrize("how", ["release", "0"])
+def test_what_waits_for_its_sender_to_be_known_does_not_act_after_a_stop(plant: FakePlant, how: str) -> None:
+    """A new node's reference of just before set the motor going 0.2 s after it was let go of; so did a 0's an angle."""
+    plant.refer(0.0)
+    other = rclpy.create_node("other", context=plant._context)
+    topic = "motor/reference" if how == "release" else "motor/position_reference"
+    asked = other.create_publisher(Float64, topic, qos.REFERENCE)
+    plant.heard(asked)
+    asked.publish(Float64(data=60.0))
+    plant.answer(0.0)
+    if how == "release":
+        assert plant.call(Trigger, "motor/release", Trigger.Request()).success
+    else:
+        plant.refer(0.0)
+    over = time.monotonic() + 2e-9 * SETTLED
+    while time.monotonic() < over:
+        state = plant.answer(0.0)
+        assert (state.state, state.voltage) == ("disabled" if how == "release" else "running", 0.0)
+    asked.publish(Float64(data=0.0))
+    asked.publish(Float64(data=60.0))
+    plant.wait(lambda: plant.answer(0.0).voltage > 0.0 or how == "0", "what is asked for afterwards")
 
 
 @pytest.mark.usefixtures("process")

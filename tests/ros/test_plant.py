@@ -15,6 +15,7 @@ from motor_model.sample import Info, Sample
 from motor_msgs.msg import MotorInfo, MotorVoltage
 from motor_ros import qos
 from motor_ros.gate import Gate
+from motor_ros.graph.acquaintances import Verdict
 from motor_ros.messages import info_message, time_message
 from motor_ros.plant import Plant
 
@@ -44,8 +45,29 @@ def test_a_stop_that_is_due_comes_before_an_enable(bench: Bench) -> None:
 
 def test_what_keeps_the_output_off_is_said(bench: Bench) -> None:
     plant = Plant(bench.node, Info(), Gate(True, 0.1), refusal=lambda: "There is no link to the board yet.")
-    assert asked(plant, True) == (False, "The output stays off. There is no link to the board yet.")
+    why = "There is no link to the board yet."
+    assert asked(plant, True) == (False, f"The output is on, and the motor stays at 0 V. {why}")
     assert asked(plant, False)[0]
+    assert asked(plant, True) == (False, f"The output stays off. {why}")
+
+
+@pytest.mark.parametrize(("waited", "volts"), [(True, 0.0), (False, 6.0)])
+def test_a_voltage_from_before_a_switch_does_not_act_after_it(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch, waited: bool, volts: float
+) -> None:
+    """It waits for its sender to be known, for up to 2 s, and is fresh where command_timeout is as long."""
+    plant = Plant(bench.node, Info(), Gate(True, 10.0))
+    verdict = [Verdict.WAITS]
+    monkeypatch.setattr(plant._commanders, "judge", lambda at: verdict[0])
+    stamps = {"received_timestamp": 0, "source_timestamp": 0}
+    heard = MotorVoltage(voltage=6.0), {"publication_sequence_number": 1, **stamps}
+    if waited:
+        plant._input._on_message(*heard)
+    assert asked(plant, False)[0] and asked(plant, True)[0]
+    if not waited:
+        plant._input._on_message(*heard)
+    verdict[0] = Verdict.OBEYED
+    assert plant.voltage() == volts
 
 
 def test_a_motor_that_stops_again_and_again_is_switched_on_later_and_later(bench: Bench) -> None:

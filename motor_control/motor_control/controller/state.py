@@ -29,6 +29,7 @@ OTHER_DRIVES = "{} is not obeyed while {} drives the motor: end that, or call mo
 TWO_SENDERS = "Several nodes publish motor/joint_command {}, and none is obeyed: end all but one."
 BEGIN_JOINT = "motor/joint_command is not obeyed until it begins again: with 0, or after a silence of {:g} s."
 BEFORE = "They began before this controller heard any of them."
+EARLIER = "It was asked for before the motor was stopped or released."
 PLAYED = (
     "A recording is played that asks for a motion ({}), and nothing is obeyed until that has ended. To drive a motor "
     "by a recording, use ros2 run motor_identification play BAG --topics motor/reference."
@@ -57,6 +58,7 @@ class State:
     references: Senders = Senders()  # of motor/reference and motor/position_reference, obeyed or not
     introduced: float = -inf  # when the latest publisher of demands was first seen to be there
     dropped: str = ""  # why there is none any more
+    halted: float = -inf  # when the motor was last stopped or released: what came before asks for nothing any more
     held: float | None = None  # since when something has held the motor at 0 V although there is one
     held_by: str = ""  # what, as a sentence
     drives: bool = False  # the latest voltage was ours, so the next has to be too
@@ -77,8 +79,11 @@ def refer(state: State, reference: float, now: float, kind: Kind = Kind.SPEED, n
     """Take a reference, [rad/s] or as `kind` says; while a stop is latched it is not taken.
 
     Where an earlier one has ended, references that go on coming are not taken either, until they begin again; nor are
-    those that were being sent when the controller came up. number: of its publisher's messages; None: not counted.
+    those that were being sent when the controller came up; nor what came before a stop or a release and is taken late,
+    since its sender was not known yet. number: of its publisher's messages; None: not counted.
     """
+    if now < state.halted:
+        return doubt(state, EARLIER, now, kind, number)
     state = _hear(state, reference, now, kind, number)
     if state.players:
         return refuse(state, PLAYED.format(state.players), now)
@@ -130,6 +135,8 @@ def command_joint(config: Config, state: State, demand: Demand | str, now: float
         demand = PLAYED.format(state.players)
     elif state.joint_senders:
         demand = TWO_SENDERS.format(state.joint_senders)
+    elif now < state.halted:
+        demand = EARLIER
     if isinstance(demand, str):
         return replace(drop(state, demand) if drives else state, refused=demand, refused_at=now)
     if state.demand is None and not (silent or demand.value == 0.0):
@@ -157,15 +164,15 @@ def refuse(state: State, why: str, now: float) -> State:
     return replace(state, refused=why, refused_at=now)
 
 
-def release(state: State) -> tuple[str, State]:
+def release(state: State, now: float) -> tuple[str, State]:
     """Let go of the motor: no reference, and after one last 0 V no voltage. What to say stands beside the state."""
-    return RELEASED, drop(state, RELEASED)
+    return RELEASED, replace(drop(state, RELEASED), halted=now)
 
 
 def stop(state: State, reason: str, now: float) -> State:
     """Latch 0 V from the next sample on, until `reset`; `reason` is a sentence."""
     state = replace(drop(state, CLEARED), faults=None, place=None, interruptions=Interruptions())
-    return replace(state, latched=reason, stops=state.stops.stop(now))
+    return replace(state, latched=reason, stops=state.stops.stop(now), halted=now)
 
 
 def reset(state: State, now: float) -> tuple[str, State]:

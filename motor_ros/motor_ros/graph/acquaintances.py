@@ -3,7 +3,8 @@
 The middleware tells of a publisher first, then of its node's name, and then of the node's services; messages may come
 before all of that. So a message waits until the node of everybody who publishes there is known, and has been for long
 enough to be recognised as a player. One that was sent while a player was there, or somebody whose node was never known,
-is not obeyed: nobody can tell whose it was.
+is not obeyed: nobody can tell whose it was. Nor is a request that was sent while somebody was there who has ended
+before it was known for long enough, for who asks waits for the answer; who publishes once may end at once.
 
 Times are ns on a clock that is never set.
 """
@@ -38,6 +39,8 @@ class Acquaintances:
     players: str = ""  # their nodes' names
     doubted: int | None = None  # [ns] the latest look at which nobody could tell whose a message was
     newest: int | None = None  # [ns] when the latest node came to be known
+    looked: int = 0  # [ns] the latest look
+    awaited: bool = False  # who sends waits for an answer: one that ends before it has settled may be no hand
 
     def look(self, publishers: Iterable[Publisher], players: Set[str], now: int) -> "Acquaintances":
         """See at `now` who publishes; players: names of all nodes that play recordings."""
@@ -46,9 +49,12 @@ class Acquaintances:
         unknown = frozenset(one.id for one in there if not one.node)
         playing = ", ".join(sorted({one.node for one in there if one.node in players}))
         left = self.unknown - unknown - known.keys()
+        if self.awaited:
+            left |= {one for one in self.known.keys() - known.keys() if self.looked - self.known[one] < SETTLED}
         came = known.keys() - self.known.keys()
         doubted = now if playing or self.players or left else self.doubted  # who has just gone may have sent before
-        return Acquaintances(known, unknown, playing, doubted, now if came else self.newest)
+        newest = now if came else self.newest
+        return Acquaintances(known, unknown, playing, doubted, newest, now, self.awaited)
 
     def watches(self, now: int) -> bool:
         """Whether somebody may still turn out to be a player."""

@@ -69,7 +69,7 @@ class Guarded:
     def __init__(self, node: Node, service: Service, asks: Callable[[Any], bool], refuse: Refuse) -> None:
         self._node, self._service, self._asks, self._refuse = node, service, asks, refuse
         self._effect, self._respond = service.callback, service.send_response
-        self._acquaintances, self._kept = Acquaintances(), Waiting(None, None, None, 0)
+        self._acquaintances, self._kept = Acquaintances(awaited=True), Waiting(None, None, None, 0)
         self._waiting: deque[Waiting] = deque()
         service.callback, service.send_response = self._on_request, self._on_response  # as every executor calls them
 

@@ -73,7 +73,7 @@ def test_invariants(steps: list[Step], which: int) -> None:
         if step.call == "reset":
             state, call = controller.reset(state, now)[1], "reset"
         elif step.call == "release":
-            state = controller.release(state)[1]
+            state = controller.release(state, 0.0)[1]
         was_latched = state.latched
 
 

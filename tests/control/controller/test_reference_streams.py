@@ -34,7 +34,7 @@ def stop_and_reset(state: State) -> State:
 
 def let_go(state: State) -> State:
     """Somebody calls motor/release."""
-    return controller.release(state)[1]
+    return controller.release(state, 0.0)[1]
 
 
 @pytest.mark.parametrize("rate", [1, 5, 50])  # [Hz]

@@ -51,7 +51,7 @@ def test_of_a_board_that_was_reset_after_a_release_nothing_is_known(restarts: bo
     for k in range(4):
         sample = Sample((100 + k) * 5 * MS, 0.0, 0.0, 500, 9 * MS, 0.01)
         _, state = controller.update(config, state, sample, None, k * 0.005)
-    _, state = controller.release(state)
+    _, state = controller.release(state, 0.0)
     again = Sample(104 * 5 * MS, 0.0, 0.0, 0 if restarts else 500, 0 if restarts else 9 * MS, 0.0 if restarts else 0.01)
     output, state = controller.update(config, state, again, None, 0.02)
     assert "released" in output.reason
@@ -110,7 +110,7 @@ def test_a_reference_has_an_age(timeout: float, drops: bool) -> None:
 
 
 def test_a_released_motor_gets_one_last_zero_and_is_left_to_others() -> None:
-    _, state = controller.release(running())
+    _, state = controller.release(running(), 0.0)
     first, state = feed(state, [200])
     second, state = feed(state, [205])
     waits(first, "released")
@@ -147,7 +147,7 @@ def test_voltages_begin_at_zero_and_again_where_the_plant_has_not_heard_it() -> 
     """A plant that was started again may find the controller a moment later than the controller finds it."""
     found, state = begins(State(), range(0, 200, 5), 60.0)
     assert found == [0]
-    found, state = begins(controller.release(state)[1], range(200, 400, 5))
+    found, state = begins(controller.release(state, 0.0)[1], range(200, 400, 5))
     assert found == []
     found, state = begins(state, range(600, 1600, 5), 60.0, on=False)
     assert found[0] == 600 and 6 <= len(found[1:]) <= 12 and found[-1] <= 1100  # as long as the reference is fresh

@@ -10,7 +10,7 @@ from motor_control.configuration import config_of
 from motor_control.controller import controller
 from motor_control.controller.output import DISABLED, RUNNING, STOPPED, Output
 from motor_control.controller.reference.demand import Demand, Kind, Source
-from motor_control.controller.state import introduce, meet_players
+from motor_control.controller.state import EARLIER, introduce, meet_players
 from motor_model.sample import Info, Sample
 
 INFO = Info(single_channel=False)
@@ -93,7 +93,7 @@ def test_after_a_stop_a_stream_that_goes_on_is_not_obeyed_until_it_begins_again(
     assert loop.run(1.0, JOINT).state == DISABLED
     loop.run(DT, STOP)
     assert loop.run(DT, JOINT).state == RUNNING
-    _, loop.state = controller.release(loop.state)
+    _, loop.state = controller.release(loop.state, loop.now)
     assert loop.run(1.0, JOINT).state == DISABLED
 
 
@@ -113,7 +113,7 @@ def test_one_source_drives_and_the_other_is_told() -> None:
     output = loop.run(0.1, STOP)
     assert output.state == RUNNING and output.reference == 10.0
     assert output.reason.startswith("motor/joint_command is not obeyed while motor/reference drives the motor")
-    _, loop.state = controller.release(loop.state)
+    _, loop.state = controller.release(loop.state, loop.now)
     loop.run(DT, STOP)
     loop.run(0.1, JOINT)
     loop.state = controller.refer(loop.state, 10.0, loop.now)
@@ -213,3 +213,20 @@ def test_a_stream_whose_voltages_have_no_effect_ends(kind: Kind) -> None:
         output = loop.run(DT, stream)
         driven, loop.voltage = driven + DT * (output.terms.voltage != 0.0), 0.0
     assert output.state == DISABLED and driven < 0.52 and "until it begins again" in loop.state.refused
+
+
+@pytest.mark.parametrize("halt", ["release", "stop and reset"])
+@pytest.mark.parametrize(("sent", "obeyed"), [(9.9, False), (10.1, True)])
+def test_what_was_asked_for_before_a_stop_is_not_obeyed_after_it(halt: str, sent: float, obeyed: bool) -> None:
+    """A reference waits up to 2 s for its sender to be known, and set a motor going that was let go of meanwhile."""
+    if halt == "release":
+        _, state = controller.release(controller.State(), 10.0)
+    else:
+        _, state = controller.reset(controller.stop(controller.State(), "It is blocked.", 10.0), 12.0)
+    for asked in (
+        controller.refer(state, 50.0, sent, number=1),
+        controller.refer(state, 1.0, sent, Kind.POSITION, number=1),
+        controller.command_joint(CONFIG, state, JOINT, sent, number=1),
+    ):
+        assert (asked.demand is not None) is obeyed
+        assert obeyed or asked.refused == EARLIER

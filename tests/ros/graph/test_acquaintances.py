@@ -62,3 +62,12 @@ def test_services_are_looked_at_for_a_while(after: int, watched: bool) -> None:
 def test_services_are_looked_at_while_somebody_is_not_known_or_plays() -> None:
     assert met(NAMELESS).watches(10 * WATCHED) and met(PLAYER, players=("/x",)).watches(10 * WATCHED)
     assert not Acquaintances().watches(0)
+
+
+@pytest.mark.parametrize(("after", "verdict"), [(SETTLED - 1, REFUSED), (SETTLED, OBEYED)])
+def test_who_asks_and_ends_before_it_is_known_for_a_while_leaves_a_doubt(after: int, verdict: Verdict) -> None:
+    """Beside another client it was obeyed by its name alone, and a player may have any."""
+    both = Acquaintances(awaited=True).look((USER,), set(), 0).look((USER, PLAYER), set(), 10 * SETTLED)
+    gone = both.look((USER, PLAYER), set(), 10 * SETTLED + after).look((USER,), set(), 11 * SETTLED)
+    assert gone.judge(10 * SETTLED, 11 * SETTLED) is verdict
+    assert gone.judge(11 * SETTLED + 1, 11 * SETTLED + 1) is OBEYED  # who is still there

@@ -50,7 +50,8 @@ class Served:
 
 def listed(monkeypatch: pytest.MonkeyPatch, served: Served, first: list[Publisher], later: list[Publisher]) -> None:
     """Have the middleware list these clients at the first look that comes, and those from then on."""
-    served.callers._acquaintances, left = acquaintances.Acquaintances(), [first]
+    nobody = acquaintances.Acquaintances(awaited=served.callers._acquaintances.awaited)
+    served.callers._acquaintances, left = nobody, [first]
     monkeypatch.setattr(callers, "list_clients", lambda *_: left.pop() if left else later)
 
 
@@ -67,6 +68,7 @@ def listed(monkeypatch: pytest.MonkeyPatch, served: Served, first: list[Publishe
         ([NOBODY], [HAND, Publisher((2,), "")], True, False),  # the second is of nobody, whoever has the first
         ([], [], True, False),  # it has ended
         ([NOBODY], [], True, False),
+        ([HAND, OTHER], [HAND], True, False),  # the second's, perhaps, before anybody knew what it serves
         ([NOBODY], [NOBODY], False, True),  # whoever asks for no motion
     ],
 )

@@ -77,7 +77,7 @@ def ask(state: State, k: int, wanted: str) -> State:
         return controller.refer(state, 500.0, 0.005 * k, Kind.POSITION)
     if wanted == "no number" and k % 10 == 5:
         return controller.refer(state, nan, 0.005 * k)
-    return controller.release(state)[1] if wanted == "release" and k % 10 == 5 else state
+    return controller.release(state, 0.0)[1] if wanted == "release" and k % 10 == 5 else state
 
 
 @pytest.mark.parametrize("wanted", ["speed", "angle", "no number", "release"])

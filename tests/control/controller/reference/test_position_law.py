@@ -158,7 +158,7 @@ def test_a_line_lost_at_rest_turns_the_motor_for_a_second_at_most(
             if stream and k % 20 == 0:
                 asked = stream[k // 20 % 2]
                 if asked is None:
-                    state = controller.release(state)[1]
+                    state = controller.release(state, 0.0)[1]
                 else:
                     speed = isinstance(asked, float) and asked == 0.0
                     angle = 0.0 if speed else (round(20.0 * edges / tau) + asked) * tau / edges
