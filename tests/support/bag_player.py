@@ -17,10 +17,11 @@ DAY = 86_400_000_000_000  # [ns]
 
 
 @contextmanager
-def play(name: str, topic: str, recorded: bool) -> Iterator["subprocess.Popen[bytes]"]:
-    """Play 5 V or 50 rad/s on a topic as a node of this name; recorded: with the stamps of yesterday."""
+def play(name: str, topic: str, recorded: bool, clock: bool = False) -> Iterator["subprocess.Popen[bytes]"]:
+    """Play 5 V or 50 rad/s on a topic as a node of this name; recorded: with the stamps of yesterday; or its /clock."""
     environment = {**ENVIRONMENT, "PYTHONPATH": os.pathsep.join(sys.path)}
-    process = subprocess.Popen([sys.executable, __file__, name, topic, "recorded" if recorded else ""], env=environment)
+    words = [sys.executable, __file__, name, topic, "clock" if clock else "recorded" if recorded else ""]
+    process = subprocess.Popen(words, env=environment)
     try:
         yield process
         assert process.poll() is None, "the player has ended"
@@ -53,8 +54,9 @@ def _call(name: str, service: str) -> None:
     print(answer.result().message)
 
 
-def _run(name: str, topic: str, recorded: bool) -> None:
+def _run(name: str, topic: str, recorded: bool, clock: bool) -> None:
     import rclpy
+    from rosgraph_msgs.msg import Clock
     from std_msgs.msg import Float64
 
     from motor_msgs.msg import MotorVoltage
@@ -67,10 +69,13 @@ def _run(name: str, topic: str, recorded: bool) -> None:
     node = rclpy.create_node(name, enable_rosout=False, start_parameter_services=False)
     voltages = topic.endswith("voltage")
     publisher = node.create_publisher(MotorVoltage if voltages else Float64, topic, qos.VOLTAGE)
+    told = node.create_publisher(Clock, "/clock", 10) if clock else None
     while not publisher.get_subscription_count():  # it opens the recording meanwhile
         time.sleep(1e-4)
     while True:
         stamp = time_message(time.time_ns() - DAY if recorded else 0)
+        if told is not None:
+            told.publish(Clock(clock=stamp))
         publisher.publish(voltage_message(5.0, stamp, "motor") if voltages else Float64(data=50.0))
         time.sleep(1.0 / RATE)
 
@@ -79,4 +84,4 @@ if __name__ == "__main__":
     if sys.argv[3] == "calls":
         _call(sys.argv[1], sys.argv[2])
     else:
-        _run(sys.argv[1], sys.argv[2], bool(sys.argv[3]))
+        _run(sys.argv[1], sys.argv[2], bool(sys.argv[3]), sys.argv[3] == "clock")

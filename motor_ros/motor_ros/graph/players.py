@@ -6,9 +6,9 @@ from rclpy.node import Node
 
 from motor_ros.graph.publishers import Publisher, ask_of_node
 
-# How `ros2 bag play` calls its node, and what it serves under whatever name. A recording that it plays asks nobody, and
-# leaves a motor as it is at its end.
-PLAYER = "rosbag2_player"
+# How `ros2 bag play` and PlotJuggler's re-publisher of a loaded bag call their nodes, and what the former serves under
+# whatever name. A recording that they play asks nobody, and leaves a motor as it is at its end, or at a cursor.
+PLAYERS = "rosbag2_player", "plotjuggler"
 SERVED = "rosbag2_interfaces/srv/"
 CALLED = (
     "{} would be called by what plays a recording ({}), which may have requests in it: call again when that has ended."
@@ -19,7 +19,7 @@ def find_players_among(node: Node, there: Iterable[Publisher]) -> set[str]:
     """Find the nodes that play recordings among those that publish, or call, by their full names."""
     names = {one.node for one in there if one.node}
     servers = _find_servers(node)  # by their services' names, of two nodes of one name, too
-    return {one for one in names if one.rpartition("/")[2] == PLAYER or one in servers or _serves(node, one)}
+    return {one for one in names if one.rpartition("/")[2] in PLAYERS or one in servers or _serves(node, one)}
 
 
 def _find_servers(node: Node) -> set[str]:

@@ -89,6 +89,12 @@ def test_of_a_node_without_a_name_yet_nothing_is_asked(bench: Bench) -> None:
     assert find_players_among(bench.node, there) == {"/rosbag2_player"}
 
 
+@pytest.mark.parametrize(("name", "plays"), [("/plotjuggler", True), ("/bench/plotjuggler", True), ("/plotter", False)])
+def test_a_viewer_that_publishes_a_loaded_bag_again_plays_it(bench: Bench, name: str, plays: bool) -> None:
+    """PlotJuggler's re-publisher sends what is under its cursor, references too: one that is moved drove the motor."""
+    assert find_players_among(bench.node, [Publisher((1,), name)]) == ({name} if plays else set())
+
+
 @pytest.mark.parametrize("renamed", [False, True])
 def test_a_player_of_another_name_is_known_by_what_it_serves(
     bench: Bench, monkeypatch: pytest.MonkeyPatch, renamed: bool
@@ -162,12 +168,16 @@ def test_nobody_is_obeyed_whose_node_is_not_known(bench: Bench, monkeypatch: pyt
     bench.wait(lambda: send(5.0) == 5.0, "its voltage")
 
 
-@pytest.mark.parametrize("name", ["rosbag2_player", "x"])
-def test_voltages_of_a_player_never_reach_the_pins(bench: Bench, start: Start, name: str) -> None:
+@pytest.mark.parametrize(
+    ("name", "clock"), [("rosbag2_player", False), ("rosbag2_player", True), ("plotjuggler", True), ("x", False)]
+)
+def test_voltages_of_a_player_never_reach_the_pins(bench: Bench, start: Start, name: str, clock: bool) -> None:
+    """Nor those whose stamps are of now by the `/clock` of the same recording (`ros2 bag play --clock`)."""
     samples = bench.hear(MotorSpeed, "motor/speed")
     played = bench.hear(MotorVoltage, "motor/voltage", qos.VOLTAGE)
-    start("motor_sim", "motor_sim")
+    start("motor_sim", "motor_sim", *(("--ros-args", "-p", "use_sim_time:=true") if clock else ()))
     bench.wait(lambda: len(samples) > 50, "samples")
-    with play(name, "motor/voltage", recorded=True):
+    with play(name, "motor/voltage", recorded=True, clock=clock):
         bench.wait(lambda: len(played) > 300, "what is played")
     assert {sample.voltage for sample in samples} == {0.0}
+    assert clock is (samples[-1].header.stamp.sec < time.time() - 1000.0)  # its clock is in force
