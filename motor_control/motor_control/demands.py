@@ -49,7 +49,7 @@ class Demands:
         self._inputs: tuple[NumberedInput[Any], ...] = (
             self._input(Float64, TOPICS[0], refer, lambda one, _: one.data == 0.0),
             self._input(Float64, TOPICS[1], approach),
-            self._input(JointState, TOPICS[2], self._command_joint),
+            self._input(JointState, TOPICS[2], self._command_joint, lambda one, _: self._stops_joint(one)),
         )
 
     def poll(self, config: Config, state: State) -> State:
@@ -89,6 +89,10 @@ class Demands:
         if not asks:
             for one in self._inputs:  # a 0 ends what waits on the other topics, too
                 one.forget()
+
+    def _stops_joint(self, message: JointState) -> bool:
+        demand = joint_demand_of(message, self._config)
+        return isinstance(demand, str) or (demand is not None and demand.value == 0.0)
 
     def _command_joint(self, message: JointState, arrival: Arrival) -> None:
         demand = joint_demand_of(message, self._config)
