@@ -19,6 +19,7 @@ from motor_model.given.mistakes import find_mistake
 from motor_model.program.internal_error import report
 from motor_ros.clocks.clock_watch import ClockWatch
 from motor_ros.loopback import stay_on_this_machine
+from motor_ros.parameter_requests import check_parameter_requests
 from motor_ros.parameters import given_parameters, unknown_parameters
 from motor_ros.program import INVALID_ARGUMENTS, Program, answer, plain_sentence
 
@@ -152,6 +153,7 @@ def run(
     try:
         start_ros(args)
         node = _created(create)
+        check_parameter_requests(node)
         for warning in unknown_parameters(node, program.rows if program else ()):
             node.get_logger().warning(warning)
         _doubt(node, program, sys.argv[1:] if args is None else args)

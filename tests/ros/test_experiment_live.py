@@ -22,6 +22,7 @@ from motor_model.sample import Info
 from motor_msgs.msg import MotorInfo, MotorSpeed, MotorVoltage
 from motor_ros import qos
 from motor_ros.messages import info_message, time_message
+from motor_ros.parameter_requests import parameter_setters
 from motor_ros.run import start_ros
 
 
@@ -125,6 +126,7 @@ def test_an_interrupt_and_what_the_bag_says_of_the_plan(stand: Stand, capsys: py
 
 def test_an_error_of_our_own(stand: Stand) -> None:
     def fail(driver: Driver) -> bool:
+        assert not parameter_setters(driver)  # nor one that anybody can bring about there
         if turning(driver):
             raise ZeroDivisionError
         return False

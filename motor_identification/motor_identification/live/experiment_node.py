@@ -34,7 +34,7 @@ class Driver(Node):
     """
 
     def __init__(self, profile: Profile, voltage: float | None, limit: float | None, namespace: str) -> None:
-        super().__init__("experiment", namespace=namespace)
+        super().__init__("experiment", namespace=namespace, start_parameter_services=False)  # it has none of its own
         self.profile, self._wanted, self.limit = profile, voltage, limit
         self.info: Info | None = None
         self.plan: Plan | None = None

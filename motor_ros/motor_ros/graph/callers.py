@@ -12,7 +12,6 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from rcl_interfaces.msg import SetParametersResult
 from rclpy.node import Node
 from rclpy.service import Service
 
@@ -20,9 +19,9 @@ from motor_ros.clocks.steady_timer import steady_timer
 from motor_ros.graph.acquaintances import PATIENCE, Acquaintances, Verdict
 from motor_ros.graph.players import CALLED, find_players_among
 from motor_ros.graph.publishers import list_clients
+from motor_ros.parameter_requests import parameter_setters, refuse_setting
 
 LOOK_EVERY = 0.05  # [s]
-SETTERS = ("/set_parameters", "/set_parameters_atomically")
 UNKNOWN = "Nobody knows which node calls {}, or it has ended: call again."
 
 Refuse = Callable[[Any, Any, str], Any]
@@ -43,8 +42,7 @@ class Callers:
     def __init__(self, node: Node) -> None:
         """Let parameters of a node be set once it is known who may set them, and by no recording that is played."""
         self._node = node
-        setters = [one for one in node.services if one.service_name.endswith(SETTERS)]
-        self._guarded = [Guarded(node, one, lambda _: True, _refuse_setting) for one in setters]
+        self._guarded = [Guarded(node, one, lambda _: True, refuse_setting) for one in parameter_setters(node)]
         steady_timer(node, LOOK_EVERY, self._on_look)  # one for all: rclpy warns of many
 
     def guard(self, service: Service, asks: Callable[[Any], bool], refuse: Refuse) -> "Guarded":
@@ -127,12 +125,3 @@ class Guarded:
     def _say_why(self) -> str:
         name, players = self._service.service_name, self._acquaintances.players
         return CALLED.format(name, players) if players else UNKNOWN.format(name)
-
-
-def _refuse_setting(request: Any, response: Any, why: str) -> Any:
-    refusal = SetParametersResult(successful=False, reason=why)
-    if hasattr(response, "results"):
-        response.results = [refusal for _ in request.parameters]
-    else:
-        response.result = refusal
-    return response
