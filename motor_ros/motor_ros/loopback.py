@@ -2,9 +2,9 @@
 
 `ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST` says whom a node looks for, not who may look for it: its sockets stay open to
 every network. The profile for Fast DDS beside this file closes them. Whoever sets the range to SUBNET or
-SYSTEM_DEFAULT opens them; a profile of the user's own is left as it is. One that is not there, or is no XML, would
-leave them open (Fast DDS says so among its errors, and goes on without), and so ours is used. What is set and empty is
-not set: a line of a script that found nothing.
+SYSTEM_DEFAULT opens them; a profile of the user's own is left as it is. One that is not there, or is another program's
+file, would leave them open (Fast DDS says so among its errors, and goes on without), and so ours is used. What is set
+and empty is not set: a line of a script that found nothing.
 
 Peers and servers that the environment names would be told of a node all the same, and could not answer a closed one.
 """
@@ -33,7 +33,8 @@ OPENED = (
     "ROS_AUTOMATIC_DISCOVERY_RANGE opens the network: everybody on it hears the motors and drives them; unset it to "
     "stay on this machine."
 )
-LOST = "{} is {}, which cannot be read: the workbench's own {} is used. Correct it, or unset it."
+LOST = "{} is {}, which cannot be read as a profile: the workbench's own {} is used. Correct it, or unset it."
+ROOTS = ("dds", "profiles")  # of a profile, in whatever namespace: Fast DDS takes no other file for one
 OTHER = (
     "RMW_IMPLEMENTATION is {}, which does not read what keeps nodes on this machine: give it an interface list of its "
     "own (docs/security.md), or everybody on the network may hear the motors and drive them."
@@ -59,12 +60,14 @@ def stay_on_this_machine(environment: MutableMapping[str, str] = os.environ) -> 
 
 
 def _is_profile(path: str) -> bool:
-    """Tell whether a file can be read and is XML; what else is wrong with a profile is its owner's."""
+    """Tell whether a file can be read, and is XML of Fast DDS; what else is wrong with a profile is its owner's."""
+    parser, tags = ParserCreate(), list[str]()
+    parser.StartElementHandler = lambda tag, _: tags.append(tag)
     try:
-        ParserCreate().Parse(regular_file.read_bytes(path, MOST), True)
+        parser.Parse(regular_file.read_bytes(path, MOST), True)
     except (OSError, MotorError, ExpatError):
         return False
-    return True
+    return tags[0].rpartition(":")[2] in ROOTS
 
 
 def _find_other_middleware(environment: MutableMapping[str, str]) -> str:

@@ -83,6 +83,28 @@ def test_a_profile_that_is_no_xml_is_not_used(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
+    ("text", "used"),
+    [
+        ('<CycloneDDS xmlns="https://cdds.io/config"><Domain id="any"/></CycloneDDS>', False),
+        ("<launch/>", False),
+        ('<profiles xmlns="http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles"/>', True),
+        ("<dds><profiles/></dds>", True),
+    ],
+)
+def test_a_file_of_another_program_is_no_profile(tmp_path: Path, text: str, used: bool) -> None:
+    """Fast DDS goes on without Cyclone DDS's configuration as well, on 0.0.0.0; its own are left as they are."""
+    named = tmp_path / "own.xml"
+    named.write_text(text)
+    ours = {PROFILE: str(named)}
+    assert (f"{named}, which cannot be read" not in stay_on_this_machine(ours)) is used
+    assert ours[PROFILE] == str(named if used else CLOSED)
+    words = ["bash", "-c", f'source env.sh && echo "${PROFILE}"']
+    bare = {one: os.environ[one] for one in ("PATH", "HOME") if one in os.environ} | {PROFILE: str(named)}
+    done = subprocess.run(words, env=bare, cwd=ROOT, capture_output=True, text=True, timeout=120.0)
+    assert Path(done.stdout.strip()).name == (named if used else CLOSED).name
+
+
+@pytest.mark.parametrize(
     ("environment", "said"),
     [
         ({MIDDLEWARE: "rmw_fastrtps_cpp"}, False),
