@@ -123,6 +123,8 @@ def _choose_poles(likelihood: "Likelihood", simplest: str, are_open: bool) -> tu
     for kind in others:
         tops[kind] = _climb(partial(likelihood.of_kind, kind), _find_as_late(kind, first.delay))
     kind = max(tops, key=lambda kind: likelihood.of_kind(kind, CLIMB[tops[kind]]) - AS_LIKELY * (kind != simplest))
+    if tops[kind] == len(CLIMB) - 1:  # it goes on, and is no filter
+        return None, False
     number = _find_peak(partial(likelihood.of_kind, kind), tops[kind])
     return (_make(kind, number) if number >= LEAST_SHARE or kind == BILINEAR else None), False
 

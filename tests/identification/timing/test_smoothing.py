@@ -4,6 +4,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
@@ -30,6 +32,7 @@ from motor_identification.timing.shaped_fit import Shaper
 from motor_identification.timing.smoothing import (
     CLIMB,
     Likelihood,
+    _choose_poles,
     _climb,
     _find_peak,
     _list_lattices,
@@ -247,6 +250,23 @@ def test_the_top_is_found_however_sharp_it_is(steep: float) -> None:
     assert found == pytest.approx(0.577, abs=(3.0 / steep) ** (2.0 / 3.0) + 1e-3)
     assert find(lambda memory: -steep * (memory - 0.854) ** 2) == pytest.approx(0.854, abs=(3.0 / steep) ** 0.5 + 1e-9)
     assert find(lambda memory: 100.0 * (memory == 0.5) - (memory - 0.4) ** 2) == 0.5  # counts are whole there alone
+
+
+@pytest.mark.parametrize(("best", "found"), [(0.94, True), (0.96, True), (0.98, False), (1.2, False)])
+def test_a_filter_that_goes_on_where_the_search_ends_is_none(best: float, found: bool) -> None:
+    """The mean of six rows of a coasting motor was undone as a filter of 198 ms: more motion than the log has."""
+    silent = cast(Shaper, SimpleNamespace(recordings=[without_count(as_speed(recorded(edges=96)))]))
+
+    class Peak(Likelihood):
+        def _measure(self, passed: SpeedFilter | None, beside: Sequence[str] = ()) -> float:
+            number = 0.0 if passed is None or passed.kind != MEMORY else passed.number
+            return -1e4 * (number - best) ** 2
+
+    likelihood = Peak(silent, ASSUMED)
+    likelihood.count = 1
+    passed, sure = _choose_poles(likelihood, MEMORY, are_open=True)
+    assert (passed is not None) is found and not sure
+    assert passed is None or passed.number == pytest.approx(best, abs=0.01)
 
 
 def test_a_few_values_lie_on_any_lattice() -> None:
