@@ -28,8 +28,8 @@ SAME_DIGIT = 1e-3  # of a decade
 # Digits of rad/s are no counts: those are a part of a turn. Nor are digits of other units that would be so many of a
 # turn: encoders have up to 8192 on a shaft, 20,000 if they are dear. Of the last digit: how exactly values are whole.
 MOST_COUNTS, WHOLE_DIGIT = 20_000, 1e-2
-# A turn of an encoder: more are last digits in a unit that nobody knows. Measured: 1,796,000 of whole counts a second in
-# rows of 1 ms, behind a filter.
+# A turn of an encoder: more are last digits in a unit that nobody knows. Measured: 1,796,000 of whole counts a second
+# in rows of 1 ms, behind a filter.
 MOST_A_TURN = 1_000_000
 # A converter's last bit: its range is one of these volts, or ten times them, in 2^n or 2^n − 1 steps; such as a
 # tachogenerator's. A step by chance is as near to one of them in 1 % of the cases.
