@@ -81,7 +81,7 @@ def _mark_within_noise(data: Intervals, way: Integers, lag: float) -> Bools:
     lasts = np.bincount(number, weights=data.duration[data.order])
     several = np.bincount(number) > 1
     marks[data.order] = (several & (lasts > thresholds.STILL_CONSTANTS * lag))[number]
-    return marks & near
+    return np.asarray(marks & near)
 
 
 def _count_between(marks: Bools, begin: Integers, end: Integers) -> Integers:
