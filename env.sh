@@ -24,7 +24,7 @@ case "${FASTRTPS_DEFAULT_PROFILES_FILE:-loopback.xml}" in
   *loopback.xml | *quick_discovery.xml) ;;
   *)
     # Fast DDS would go on, open, without a file and with another program's
-    if [ ! -f "$FASTRTPS_DEFAULT_PROFILES_FILE" ] || ! grep -Eq '<(dds|profiles|[^ ]*:(dds|profiles))[ />]' "$FASTRTPS_DEFAULT_PROFILES_FILE"; then
+    if [ ! -f "$FASTRTPS_DEFAULT_PROFILES_FILE" ] || ! grep -Eq '<(dds|profiles)([[:space:]/>]|$)' "$FASTRTPS_DEFAULT_PROFILES_FILE"; then
       echo "FASTRTPS_DEFAULT_PROFILES_FILE is $FASTRTPS_DEFAULT_PROFILES_FILE, which cannot be read as a profile: the workbench's own $_motor_profile is used. Correct it, or unset it." >&2
       unset FASTRTPS_DEFAULT_PROFILES_FILE
     fi

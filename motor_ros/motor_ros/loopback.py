@@ -34,7 +34,7 @@ OPENED = (
     "stay on this machine."
 )
 LOST = "{} is {}, which cannot be read as a profile: the workbench's own {} is used. Correct it, or unset it."
-ROOTS = ("dds", "profiles")  # of a profile, in whatever namespace: Fast DDS takes no other file for one
+ROOTS = ("dds", "profiles")  # of a profile, without a prefix: Fast DDS takes no other file for one
 OTHER = (
     "RMW_IMPLEMENTATION is {}, which does not read what keeps nodes on this machine: give it an interface list of its "
     "own (docs/security.md), or everybody on the network may hear the motors and drive them."
@@ -67,7 +67,7 @@ def _is_profile(path: str) -> bool:
         parser.Parse(regular_file.read_bytes(path, MOST), True)
     except (OSError, MotorError, ExpatError):
         return False
-    return tags[0].rpartition(":")[2] in ROOTS
+    return tags[0] in ROOTS
 
 
 def _find_other_middleware(environment: MutableMapping[str, str]) -> str:

@@ -89,10 +89,17 @@ def test_a_profile_that_is_no_xml_is_not_used(tmp_path: Path) -> None:
         ("<launch/>", False),
         ('<profiles xmlns="http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles"/>', True),
         ("<dds><profiles/></dds>", True),
+        ('<profiles\n    xmlns="http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles"/>', True),
+        ('<dds\txmlns="http://www.eprosima.com"/>', True),
+        ('<f:profiles xmlns:f="http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles"/>', False),
+        ('<f:dds xmlns:f="http://www.eprosima.com"/>', False),
     ],
 )
 def test_a_file_of_another_program_is_no_profile(tmp_path: Path, text: str, used: bool) -> None:
-    """Fast DDS goes on without Cyclone DDS's configuration as well, on 0.0.0.0; its own are left as they are."""
+    """Fast DDS goes on without Cyclone DDS's configuration as well, on 0.0.0.0; its own are left as they are.
+
+    It knows its elements by their bare names alone; after those may be any white space.
+    """
     named = tmp_path / "own.xml"
     named.write_text(text)
     ours = {PROFILE: str(named)}
