@@ -15,6 +15,7 @@ from motor_identification.recording import Recording
 from motor_identification.sensor.description import note_sensors
 from motor_identification.sensor.speed_sensor import (
     COUNT_NOISE,
+    EVEN_ROWS,
     NOISE_BEYOND_DIGITS,
     UNTOLD,
     are_smoothed,
@@ -224,16 +225,18 @@ def test_counts_divided_by_rows_of_different_lengths_are_not_smoothed() -> None:
 
 
 @pytest.mark.parametrize(
-    ("keeps", "edges", "swing", "between"),
+    ("keeps", "edges", "swing", "uneven", "between"),
     [
-        (0.0, 2304, 1.0, False),  # counts as they are
-        (0.5, 2304, 1.0, True),  # smoothed, and as noisy as they are rough
-        (0.8, 2304, 0.0, False),  # smoothed as whoever imports it sees
-        (0.5, 0, 1.0, False),  # nothing was said
+        (0.0, 2304, 1.0, 0.0, False),  # counts as they are
+        (0.5, 2304, 1.0, 0.0, True),  # smoothed, and as noisy as they are rough
+        (0.5, 2304, 1.0, 0.99, True),
+        (0.5, 2304, 1.0, 1.01, False),  # or divided by a length that stamps do not show
+        (0.8, 2304, 0.0, 0.0, False),  # smoothed as whoever imports it sees
+        (0.5, 0, 1.0, 0.0, False),  # nothing was said
     ],
 )
 def test_said_counts_that_lie_between_whole_ones_were_smoothed(
-    keeps: float, edges: int, swing: float, between: bool
+    keeps: float, edges: int, swing: float, uneven: float, between: bool
 ) -> None:
     """A toy's 2,304 counts a turn at 20 Hz, of which its program kept a half: no filter was looked for."""
     rng, row = np.random.default_rng(3), 0.05
@@ -242,7 +245,8 @@ def test_said_counts_that_lie_between_whole_ones_were_smoothed(
     for k in range(1, len(speed)):
         speed[k] = keeps * speed[k - 1] + (1.0 - keeps) * speed[k]
     info = replace(as_speed(recorded(0, 96)).info, edges_per_revolution=edges, sample_period=row, speed_window=row)
-    log = SimpleNamespace(info=info, time=row * np.arange(600), voltage=np.ones(600), speed=speed)
+    late = uneven * EVEN_ROWS * np.tile([0.0, 0.0, 1.0], 200)  # two of three rows are not of the usual length
+    log = SimpleNamespace(info=info, time=row * (np.arange(600) + late), voltage=np.ones(600), speed=speed)
     assert lies_between_counts(cast(Recording, log)) is between
 
 
