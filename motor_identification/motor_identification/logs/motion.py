@@ -36,6 +36,7 @@ _FAR = 5.5  # times between the steps of speeds and one count, below the 2π, 9.
 # Times finer than a count, and last digits, that a step is one of digits: a wrong unit makes it 360 times finer. How
 # near to what a wrong unit makes it, of all there are, a finer one is no digit's: a real 44 is not that of radians.
 _FINER, _FEW_DIGITS = 400.0, 10.0
+_MANY_COUNTS = 10.0  # within a row at most: of a wrong unit's count, which is too large, speeds have fewer
 _MISTAKEN, _AS_MISTAKEN = (6.0, 2.0 * pi, 30.0 / pi, 180.0 / pi, 60.0, 360.0), 0.03
 # Counts of a row in motion, by median, from which on its speed says as much as the angle: one is then a quarter of it.
 # Of fewer, speeds of single rows are little but their rounding, which the angle does not sum up.
@@ -218,10 +219,14 @@ def _check_steps(form: CsvForm, values: Floats, edges: int, count: float) -> Non
     makes it: speeds that were timed between edges, or smoothed.
     """
     step = find_lattice(values) if len(np.unique(values)) >= LEAST_LEVELS else 0.0
-    digit = printed_digit(values)
+    digit, many = printed_digit(values), float(np.max(np.abs(values), initial=0.0)) > _MANY_COUNTS * count
     if step < count / _FINER and step <= _FEW_DIGITS * digit:
         return
-    if 0.0 < step < min(count, 1.5 * digit) and all(abs(count / step / one - 1.0) > _AS_MISTAKEN for one in _MISTAKEN):
+    if (
+        many
+        and 0.0 < step < min(count, 1.5 * digit)
+        and all(abs(count / step / one - 1.0) > _AS_MISTAKEN for one in _MISTAKEN)
+    ):
         return
     if step > 0.0 and not 1.0 / _FAR < step / count < _FAR:
         raise RecordingError(

@@ -164,13 +164,21 @@ def test_steps_of_speeds_that_are_no_counts_show_a_mistaken_unit(factor: float, 
 
 @pytest.mark.parametrize(
     ("unit", "digit", "refused"),
-    [(tau / 360, 1.0, False), (1.0, 0.01, False), (tau / 360, tau / 100 / 0.02 / (tau / 360) / 57.3, True)],
-    ids=["whole degrees a second", "hundredths of rad/s", "a count in another unit"],
+    [
+        (tau / 360, 1.0, False),
+        (1.0, 0.01, False),
+        (tau / 360, tau / 100 / 0.02 / (tau / 360) / 57.3, True),
+        (1.0, 0.1, True),
+    ],
+    ids=["whole degrees a second", "hundredths of rad/s", "a count in another unit", "a tenth of said counts"],
 )
 def test_digits_of_speeds_that_were_smoothed_are_no_mistaken_unit(unit: float, digit: float, refused: bool) -> None:
-    """Whoever knew his counts had his log refused: one of whole degrees a second, 44 times finer than a count."""
+    """Whoever knew his counts had his log refused: one of whole degrees a second, 44 times finer than a count.
+
+    Of a unit that makes a count too large, speeds are few counts, whatever the last digit hides of them.
+    """
     form = replace(SPEED, unit="deg/s" if unit < 1.0 else "rad/s", edges_per_revolution=100)
-    speed = 20.0 + 15.0 * np.sin(np.arange(400) / 30.0)
+    speed = (20.0 + 15.0 * np.sin(np.arange(400) / 30.0)) * (0.8 if digit == 0.1 else 1.0)
     values = digit * np.rint(speed / unit / digit)
     if refused:
         with pytest.raises(RecordingError, match="or leave the second away if speeds were smoothed or timed"):

@@ -1,7 +1,7 @@
 """What a column of motion holds and in which unit, where its name does not say it: by what its numbers can be."""
 
 from dataclasses import dataclass
-from math import pi, tau
+from math import pi, sqrt, tau
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +21,7 @@ WHOLE, WHOLE_BY_POSITIONS = 0.015, 0.004
 RELATIVE = 5e-6  # of the counts of a turn: what printed digits leave of the step of speeds, and 3.1416 of radians
 SURE = 4.0  # standard errors of the step
 MOST_COUNTS = 10_000  # a turn
+CLOCK = 3e-6  # of a row: how well the mean length of uneven ones is known at best; more than 5,000 counts are chance
 MOST_TOLD = 4096  # a turn, by which columns without names are told: of more, 5 % come near to a whole number by chance
 FEWEST_MAGNETS = 3  # counts a turn of a sensor that may be meant where steps are so coarse: of one or two magnets
 FORGETS = 5.0  # time constants in a recording, from which on a column is a speed: a position forgets nothing
@@ -87,10 +88,14 @@ def guess_speed_unit(values: Floats, window: float, stamps: Floats | None = None
 
 
 def _measure_scatter(stamps: Floats) -> float:
-    """Measure how far the lengths of rows usually are from the usual one, relative to it; stamps [s], shape (K,)."""
+    """Measure how far the mean length of rows may be from the usual one, relative to it; stamps [s], shape (K,).
+
+    Of even rows it is known, and of others as well as a program's clock at best.
+    """
     lengths = np.diff(stamps)
     usual = float(np.median(lengths))
-    return float(np.median(np.abs(lengths - usual))) / usual if usual > 0.0 else 0.0
+    scatter = float(np.median(np.abs(lengths - usual))) / usual if usual > 0.0 else 0.0
+    return max(scatter / sqrt(len(lengths)), CLOCK) if scatter > 0.0 else 0.0
 
 
 def guess_position_unit(values: Floats) -> Unit:

@@ -63,10 +63,20 @@ def test_speeds_without_counts_do_not_tell_their_unit() -> None:
     assert set(guess_speed_unit(counted, 0.01).candidates) == {"deg/s", "rpm"}
 
 
-@pytest.mark.parametrize(("edges", "unit"), [(360, "rad/s"), (5056, "")])
-def test_many_counts_tell_no_unit_where_rows_are_not_that_regular(edges: int, unit: str) -> None:
-    """Steps of 843 a turn in rpm were 5,056 in deg/s, to a tenth of one, by which the rows scatter."""
-    lengths = 0.01 + np.random.default_rng(1).normal(0.0, 3e-7, len(DRIVE))
+@pytest.mark.parametrize(
+    ("edges", "scatter", "unit"),
+    [
+        (360, 3e-5, "rad/s"),
+        (5056, 3e-5, ""),
+        (4096, 3e-5, "rad/s"),
+        (341, 1e-4, "rad/s"),
+        (12, 2e-2, "rad/s"),
+        (341, 4e-3, ""),
+    ],
+)
+def test_many_counts_tell_no_unit_where_rows_are_not_that_regular(edges: int, scatter: float, unit: str) -> None:
+    """Steps of 843 a turn in rpm were 5,056 in deg/s, to a tenth of one; the mean of many rows is known better."""
+    lengths = 0.01 * (1.0 + np.random.default_rng(1).normal(0.0, scatter, len(DRIVE)))
     values = np.rint(speeds() * 0.01 * edges / tau) * tau / edges / 0.01
     values *= 1.0 if unit else 360 / tau
     assert guess_speed_unit(values, 0.01).name
