@@ -22,7 +22,7 @@ from motor_identification.diagnosis.verdict import (
     leave_out_named,
     list_unjudged_effects,
 )
-from motor_identification.discrepancy.structure import Structure
+from motor_identification.discrepancy.structure import LEAST_SHARE, Structure
 from motor_identification.estimation.request import SearchReport
 from motor_identification.uncertainty.summary import summarise_fit
 from motor_model.effects import EFFECT_BY_NAME
@@ -73,6 +73,20 @@ def test_what_nothing_predicts_is_not_said_to_be_outside_the_table(
     monkeypatch.setattr(type(model), "structure", ())
     assert decide(said, chosen(model), ())[0] is Verdict.UNDECIDED
     assert decide(said, chosen(model, sure), ())[0] is Verdict.UNEXPLAINED
+
+
+@pytest.mark.parametrize(("times", "seen", "outside"), [(1.01, True, True), (0.99, True, False), (0.99, False, True)])
+def test_a_small_share_of_motion_that_was_fitted_is_no_effect_outside_the_table(
+    monkeypatch: pytest.MonkeyPatch, times: float, seen: bool, outside: bool
+) -> None:
+    """Of a real robot whose rows come late, a friction over the angle would have left 4 %, and nothing else did."""
+    model = stub_model(OVER, 0.0)
+    model = replace(model, held=replace(model.held, seen=seen))
+    monkeypatch.setattr(type(model), "complete", False)
+    monkeypatch.setattr(type(model), "structure", ())
+    cause = Structure("angle", times * LEAST_SHARE, 90.0, relevant=True, cause="a friction that goes with the angle")
+    verdict = Verdict.UNEXPLAINED if outside else Verdict.UNDECIDED
+    assert decide((finding(),), chosen(model, cause), ()) == (verdict, "")
 
 
 @pytest.mark.parametrize(
