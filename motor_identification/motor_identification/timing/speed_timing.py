@@ -89,9 +89,10 @@ def _find_voltages(shaper: Shaper) -> Timing | None:
     """Find whether voltages held until their rows, of counts, and of speeds of said counts, maybe behind a filter."""
     speeds = all(recording.info.measurement is Measurement.SPEED for recording in shaper.recordings)
     found = find_filter(shaper, (ASSUMED, UNTIL)) if speeds else ASSUMED
-    if found.filter:
-        shaper = replace(shaper, recordings=found.set_on(shaper.recordings))
-    found = replace(UNTIL, filter=found.filter) if held_until(shaper) else found
+    sharp = replace(shaper, recordings=replace(ASSUMED, filter=found.filter).set_on(shaper.recordings))
+    if held_until(sharp):
+        return replace(UNTIL, filter=found.filter)
+    found = find_filter(shaper, (ASSUMED,)) if found.is_early else found
     return None if found == ASSUMED else found
 
 

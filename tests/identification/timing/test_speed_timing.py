@@ -1,5 +1,6 @@
 """When a log's speeds were made shows in the motion, and only there where nobody said it."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from types import SimpleNamespace
 from typing import Any, cast
@@ -14,6 +15,7 @@ from tiers import keep_fast
 from motor_identification import diagnose as diagnose_module
 from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis.result import Verdict
+from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import Problem, make_problem
 from motor_identification.estimation.request import SearchConfig
 from motor_identification.estimation.search.global_search import search_globally
@@ -22,10 +24,11 @@ from motor_identification.monitoring.model_gap import Model, measure_gap
 from motor_identification.recording import Recording, check
 from motor_identification.reporting.curves import make_fit_curves
 from motor_identification.reporting.model_comparison import Identified
+from motor_identification.timing import speed_timing
 from motor_identification.timing.shaped_fit import Shaper
-from motor_identification.timing.speed_filter import SpeedFilter
+from motor_identification.timing.speed_filter import MEMORY, SpeedFilter
 from motor_identification.timing.speed_timing import TOO_EARLY, _find_instants, _is_likelier, find_timing
-from motor_identification.timing.timing import ASSUMED, INSTANT, OTHERS, Timing, list_readings
+from motor_identification.timing.timing import ASSUMED, INSTANT, OTHERS, UNTIL, Timing, list_readings
 from motor_identification.validation.hold_out import make_hold_out
 
 
@@ -239,3 +242,28 @@ def test_a_fit_and_a_diagnosis_use_what_was_found() -> None:
     found = diagnose([early])
     assert [one.effect for one in found.findings] == ["coulomb_friction"] and found.verdict is Verdict.EXPLAINED
     assert any("rows' own instants" in note for note in found.model.notes)
+
+
+@pytest.mark.parametrize(
+    ("likelier", "confirmed", "found"),
+    [
+        (UNTIL, True, replace(UNTIL, filter=SpeedFilter(MEMORY, 0.5))),
+        (UNTIL, False, replace(ASSUMED, filter=SpeedFilter(MEMORY, 0.4))),  # its own, of voltages as they are logged
+        (ASSUMED, False, replace(ASSUMED, filter=SpeedFilter(MEMORY, 0.4))),
+        (ASSUMED, True, replace(UNTIL, filter=SpeedFilter(MEMORY, 0.4))),
+    ],
+)
+def test_voltages_of_smoothed_counts_held_until_their_rows_only_where_the_motion_confirms_it(
+    monkeypatch: pytest.MonkeyPatch, likelier: Timing, confirmed: bool, found: Timing
+) -> None:
+    """A filter and a row of voltage do each other's work: both are looked for, and the voltage again behind it."""
+    poles = {UNTIL: SpeedFilter(MEMORY, 0.5), ASSUMED: SpeedFilter(MEMORY, 0.4)}
+
+    def find(shaper: Shaper, timings: Sequence[Timing]) -> Timing:
+        best = likelier if likelier in timings else ASSUMED
+        return replace(best, filter=poles[best])
+
+    monkeypatch.setattr(speed_timing, "find_filter", find)
+    monkeypatch.setattr(speed_timing, "held_until", lambda shaper: confirmed)
+    said = describe(check(noisy(0.05)), edges_per_revolution=960)
+    assert speed_timing._find_voltages(Shaper([said], cast(Estimate, None), None)) == found
