@@ -85,20 +85,20 @@ def describe_disturbance(diagnosis: Diagnosis) -> str:
 
 def describe_few_values(diagnosis: Diagnosis) -> str:
     """Say in how few values a gap is that neither sensor nor torque leaves; empty where it is in many, or none is."""
-    held = diagnosis.after
-    squares = held.weight * held.residuals**2
     if not diagnosis.gap_after > EXPLAINED_GAP * diagnosis.noise_floor > 0.0:
         return ""
+    held = diagnosis.after
+    squares = held.weight * held.residuals**2
     worst = np.argsort(-squares)
     few = int(np.searchsorted(np.cumsum(squares[worst]), MOST * squares.sum())) + 1
     if few > WILD_TIME * len(squares):
         return ""
     time = np.concatenate([data.time[data.last] for data in held.intervals])[held.counted]
-    names = [one.uri.rsplit("/", 1)[-1] for one in held.recordings for _ in held.recordings[1:2]]
+    names = [f" of {one.uri.rsplit('/', 1)[-1]}" if len(held.recordings) > 1 else "" for one in held.recordings]
     run = np.repeat(np.arange(len(held.intervals)), [int(marks.sum()) for marks in held.scored])
-    where = [f"{time[k]:.4g} s" + (f" of {names[run[k]]}" if names else "") for k in sorted(worst[:NAMED])]
+    where = " and ".join(f"{time[k]:.4g} s{names[run[k]]}" for k in sorted(worst[: min(few, NAMED)]))
     left = float(np.sqrt(squares[worst[few:]].sum() / held.weight[worst[few:]].sum()))
-    return FEW.format(few, len(squares), " and ".join(where[:few]) + (", the worst" if few > NAMED else ""), left)
+    return FEW.format(few, len(squares), where + (", the worst" if few > NAMED else ""), left)
 
 
 def _describe_breakaway(findings: Sequence[Finding], torque: Disturbance) -> str:

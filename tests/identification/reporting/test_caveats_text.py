@@ -66,6 +66,17 @@ def test_a_gap_in_few_values_is_said_to_be_there(
     assert ("Most of that gap" in text) is said
 
 
+def test_one_value_that_is_off_is_named_alone_and_not_the_next_worst(variants: dict[Verdict, Diagnosis]) -> None:
+    speed = 9.0 + np.where(np.arange(100) % 7 == 0, 1.0, -1.0)
+    speed[40], speed[5] = 99.0, 12.0
+    data = index_intervals(np.arange(100.0), np.arange(1.0, 101.0), speed, np.full(100, 0.1))
+    one = variants[Verdict.EXPLAINED]
+    held = replace(one.after, intervals=(data,), angles=(9.0 * np.arange(101.0),), instants=(), responses=())
+    held = replace(held, recordings=held.recordings[:1], scored=(np.ones(100, dtype=bool),))
+    text = summarize_diagnosis(replace(one, after=held, gap_after=9.0 * one.noise_floor))
+    assert "Most of that gap is in 1 of 100 values (41 s): 1.04 rad/s is left without" in text
+
+
 @pytest.mark.parametrize(("error", "said"), [(0.44, True), (0.46, False)])
 def test_a_breakaway_beside_a_random_torque_may_be_larger(
     variants: dict[Verdict, Diagnosis], error: float, said: bool
