@@ -6,7 +6,7 @@ itself is compared. `build_intervals.py` makes them of every kind of recording, 
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import pi, sqrt
+from math import sqrt, tau
 
 import numpy as np
 
@@ -101,7 +101,7 @@ class Intervals:
     def follows_turns(self) -> bool:
         """Whether what repeats with the angle would show: of the values that move, some are less than a turn apart."""
         gone = np.abs(self.speed[1:]) * np.diff(self.time[self.first]) * self.gear
-        return bool(np.any(gone > 0.0) and np.quantile(gone[gone > 0.0], TURNS_FOLLOWED) < 2.0 * pi)
+        return bool(np.any(gone > 0.0) and np.quantile(gone[gone > 0.0], TURNS_FOLLOWED) < tau)
 
     @cached_property
     def fresh(self) -> Bools:

@@ -25,8 +25,7 @@ def find_rivals(found: CandidateTest, tests: Sequence[CandidateTest]) -> tuple[s
             found.evidence_of_all - test.evidence_of_all,
             np.subtract(found.model.score.by_recording, test.model.score.by_recording),
         )
-        or holds_nearly_as_well(test, found.effect, found.evidence)
-        or leaves_as_little(test, found.effect, found.model, found.evidence)
+        or does_nearly_as_well(test, found.effect, found.model, found.evidence)
     ]
     return sort_by_table(name for name in alike if count_parameters(name) <= count_parameters(found.effect))
 
@@ -62,7 +61,15 @@ def are_alike(other: Model, found: Model) -> bool:
     return is_alike(one.likelihood - two.likelihood, one.of_all - two.of_all, gains)
 
 
-def leaves_as_little(test: CandidateTest, effect: str, found: Model, evidence: float) -> bool:
+def does_nearly_as_well(test: CandidateTest, effect: str, found: Model, evidence: float) -> bool:
+    """Decide whether an effect does most of what another one does, or leaves hardly more where that is not all.
+
+    effect, evidence: of the one that was found, beside the model that the test is beside.
+    """
+    return holds_nearly_as_well(test, effect, evidence) or _leaves_as_little(test, effect, found, evidence)
+
+
+def _leaves_as_little(test: CandidateTest, effect: str, found: Model, evidence: float) -> bool:
     """Decide whether an effect leaves hardly more than one that was found, beside what that one leaves unexplained.
 
     Where a model is not all that is there, a likelihood tells what bends the motion the right way, not what bends it:

@@ -16,9 +16,9 @@ from motor_identification.diagnosis.effect_test import (
 )
 from motor_identification.diagnosis.evidence.likeness import (
     are_alike,
+    does_nearly_as_well,
     find_rivals,
     holds_nearly_as_well,
-    leaves_as_little,
 )
 from motor_identification.diagnosis.evidence.line_evidence import drop_chance_harmonics
 from motor_identification.diagnosis.evidence.replacement import choose_better, find_loss
@@ -141,8 +141,7 @@ def _list_rivals(tests: Sequence[CandidateTest], effect: str, current: Model) ->
         for test in tests
         if find_loss(test, current) < thresholds.RIVAL_MARGIN
         or are_alike(test.model, current)
-        or holds_nearly_as_well(test, effect, current.likelihood - test.before.likelihood)
-        or leaves_as_little(test, effect, current, current.likelihood - test.before.likelihood)
+        or does_nearly_as_well(test, effect, current, current.likelihood - test.before.likelihood)
     ]
     return sort_by_table(name for name in alike if count_parameters(name) <= count_parameters(effect))
 
