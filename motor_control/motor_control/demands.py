@@ -20,7 +20,7 @@ from std_msgs.msg import Float64
 from motor_control.controller import controller
 from motor_control.controller.controller import Config, State
 from motor_control.controller.reference.demand import Demand, Kind
-from motor_control.controller.state import introduce, meet_players
+from motor_control.controller.state import EARLIER, introduce, meet_players
 from motor_control.messages import joint_demand_of
 from motor_ros import qos
 from motor_ros.clocks.hold_ups import HELD_UP, STOOD_STILL, HoldUps
@@ -30,6 +30,7 @@ from motor_ros.messages import stamp_age
 from motor_ros.numbered_input import Arrival, Counts, NumberedInput, never
 
 TOPICS = "motor/reference", "motor/position_reference", "motor/joint_command"
+AT_ONCE = 1_000_000  # [ns] within which of two messages of two clock readings either may be the earlier
 OLD = (
     "The stamp of motor/joint_command is {:.3g} s {}, as in a recording that is played: set both computers' clocks, or "
     "leave the stamp empty."
@@ -42,7 +43,7 @@ class Demands:
     def __init__(self, node: Node, config: Config) -> None:
         self._node, self._config, self._state = node, config, State()
         self._resolved = [node.resolve_topic_name(topic) for topic in TOPICS]  # only so they are counted where renamed
-        self._count = -1  # of those who may ask
+        self._count, self._zeroed = -1, 0  # of those who may ask; when the latest 0 was sent [ns]
         self._commanders = Commanders(node, *TOPICS)
         self._hold_ups = HoldUps(node)
         refer, approach = partial(self._refer, Kind.SPEED), partial(self._refer, Kind.POSITION)
@@ -82,13 +83,19 @@ class Demands:
 
     def _refer(self, kind: Kind, message: Float64, arrival: Arrival) -> None:
         at, asks = arrival.at * 1e-9, kind is Kind.POSITION or message.data != 0.0
-        if asks and self._hold_ups.bars(arrival.waited):
-            self._state = controller.doubt(self._state, STOOD_STILL, at, kind, arrival.number)
+        late = STOOD_STILL if self._hold_ups.bars(arrival.waited) else EARLIER if self._is_over(arrival) else ""
+        if asks and late:
+            self._state = controller.doubt(self._state, late, at, kind, arrival.number)
         else:
             self._state = controller.refer(self._state, message.data, at, kind, arrival.number)
         if not asks:
+            self._zeroed = max(self._zeroed, arrival.sent)
             for one in self._inputs:  # a 0 ends what waits on the other topics, too
                 one.forget()
+
+    def _is_over(self, arrival: Arrival) -> bool:
+        """Whether the motor was stopped, released or sent a 0 after a message was sent that comes after that."""
+        return arrival.sent < max(self._state.halted * 1e9, self._zeroed - AT_ONCE)
 
     def _stops_joint(self, message: JointState) -> bool:
         demand = joint_demand_of(message, self._config)
@@ -102,6 +109,8 @@ class Demands:
                 demand = OLD.format(abs(age), "old" if age > 0.0 else "ahead")
             elif self._hold_ups.bars(arrival.waited):
                 demand = STOOD_STILL
+            elif self._is_over(arrival):
+                demand = EARLIER
         if demand is not None:
             at = arrival.at * 1e-9
             self._state = controller.command_joint(self._config, self._state, demand, at, arrival.number)

@@ -28,6 +28,7 @@ class Arrival(NamedTuple):
     number: int | None  # how many its publisher has sent; None: nobody counts
     waited: int  # [ns] to be taken
     at: int  # [ns] when it was taken, on a clock that is never set
+    sent: int  # [ns] when it was sent, on that clock: by the sender's own, which may be off, and not long ago
 
 
 Counts = Callable[[Any, Arrival], bool]
@@ -84,8 +85,9 @@ class NumberedInput(Generic[MessageType]):
         number = about["publication_sequence_number"]
         counted = number is not None and 0 < number < NOT_COUNTED
         doubt = self._hold_ups is not None and self._hold_ups.in_doubt()
-        waited = _wait_of(about, time.time_ns(), doubt)
-        arrival = Arrival(number if counted else None, waited, time.monotonic_ns())
+        now, at = time.time_ns(), time.monotonic_ns()
+        sent = at - min(_wait_of(about, now, True), round(HELD_UP * 1e9))
+        arrival = Arrival(number if counted else None, _wait_of(about, now, doubt), at, sent)
         if self._commanders is None or self._counts(message, arrival):
             self.forget()
             self._take(message, arrival)
