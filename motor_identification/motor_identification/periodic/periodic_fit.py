@@ -11,6 +11,9 @@ from motor_identification.estimation.least_squares import fit_speeds, improves_f
 from motor_identification.estimation.parameter_space import map_theta, set_values
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.measurement.measured_angle import Track
+from motor_identification.noise.angle_noise import make_whitening, whiten
+from motor_identification.noise.likelihood import estimate_noise, make_noise
+from motor_identification.noise.slots.first_harmonic import bound_chance_eccentricity
 from motor_identification.periodic.angle_load import find_angle_load
 from motor_identification.periodic.ripple_spectrum import (
     USUAL_RIPPLE,
@@ -39,6 +42,7 @@ class Start:
     tracks: Tracks
     values: Mapping[str, Floats]
     motor: Mapping[str, Floats] = field(default_factory=dict)  # where it is another than without the effect
+    is_told: bool = False  # by white residuals, of which mean speeds, of a coarse sensor's rows, may tell nothing
 
     @property
     def cycles(self) -> float:
@@ -79,7 +83,8 @@ def add_periodic_effect(bare: Estimate, effect: str, least: float = 0.0, freely:
         begin = _begin(replace(bare, simulations=spent), effects, start)
         held = fit_speeds(begin, iterations=ITERATIONS, tolerance=TOLERANCE)
         spent = held.simulations
-        if least > 0.0 and not improves_fit(cost_without, held.cost, len(held.problem.weight)):
+        gains = start.is_told or improves_fit(cost_without, held.cost, len(held.problem.weight))
+        if least > 0.0 and not gains:
             break
         fits += _fit_freely(bare, begin, held, effect, start) if freely else [correct_directions(held)]
         spent = fits[-1].simulations
@@ -154,14 +159,15 @@ def _start_eccentricity(bare: Estimate, tracks: Tracks, least: float) -> Start |
 
     None where it explains no more than `least` and what so many runs, each turned as it fits best, do by chance.
     """
-    waves, straightened, explained = [], [], 0.0
+    waves, straightened, explained, chance = [], [], 0.0, 0.0
     for data, track, increments in zip(bare.problem.intervals, tracks, bare.increments, strict=True):
-        angle, root = data.gear * track.at(data.time), 1.0 / np.sqrt(data.duration)
-        sine, cosine = (
-            np.diff(shape(angle)[np.stack([data.first, data.last])], axis=0)[0] * root for shape in (np.sin, np.cos)
-        )
+        angle, noise = data.gear * track.at(data.time), estimate_noise([(data, increments)])
+        whitening = make_whitening(make_noise(data, noise.share), noise.drift)
+        chance = max(chance, bound_chance_eccentricity(data.slot * data.gear, noise.share))
+        shapes = (np.diff(shape(angle)[np.stack([data.first, data.last])], axis=0)[0] for shape in (np.sin, np.cos))
+        sine, cosine, left = (whiten(whitening, part) for part in (*shapes, -increments))
         run = track.run_at(data.time[data.first])
-        aligned = align_wave(sine, cosine, -increments * root, run, data)
+        aligned = align_wave(sine, cosine, left, run, data)
         explained += aligned.explained - explain_runs_by_chance(int(run.max()), data)
         waves.append(data.gear * aligned.weight)
         straightened.append(track.slipped(aligned.slips / data.gear))
@@ -169,7 +175,8 @@ def _start_eccentricity(bare: Estimate, tracks: Tracks, least: float) -> Start |
         return None
     size = np.full(len(waves), np.mean(np.abs(waves)))
     phase = np.asarray(np.angle(waves), dtype=np.float64)
-    return Start(tuple(straightened), {"eccentricity": size, "eccentricity_phase": phase})
+    values = {"eccentricity": size, "eccentricity_phase": phase}
+    return Start(tuple(straightened), values, is_told=bool(size[0] > chance))
 
 
 def align_wave(sine: Floats, cosine: Floats, left: Floats, run: Integers, data: Intervals) -> Aligned:

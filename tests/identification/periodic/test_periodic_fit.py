@@ -6,7 +6,7 @@ from typing import cast
 import numpy as np
 import pytest
 from plant import profiles, record
-from recorded import as_speed
+from recorded import as_speed, without_count
 from tiers import keep_fast
 
 from motor_identification.estimation.direction_correction import correct_directions
@@ -17,11 +17,14 @@ from motor_identification.estimation.problem import make_problem
 from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.measurement.measured_angle import Track, make_track
+from motor_identification.noise.angle_noise import Whitening
+from motor_identification.noise.likelihood import Noise
 from motor_identification.periodic import periodic_fit
 from motor_identification.periodic.periodic_fit import add_periodic_effect, align_wave, measure_angles
-from motor_identification.periodic.ripple_spectrum import PHASE_CHANCE, SLIP_CHANCE, find_ripples
+from motor_identification.periodic.ripple_spectrum import LINE_CHANCE, PHASE_CHANCE, SLIP_CHANCE, find_ripples
 from motor_identification.periodic.run_alignment import Aligned, align_runs
 from motor_identification.recording import Floats, Recording, check
+from motor_identification.sensor.description import note_sensors
 from motor_model.effects import INDEX
 from motor_model.parameters import PAPER_KA, PAPER_KV
 
@@ -217,6 +220,19 @@ def test_an_eccentric_disc_is_seen_in_the_speeds_that_were_counted_on_it() -> No
     assert fit.parameters.values["eccentricity"] == pytest.approx(0.04, rel=0.05)
 
 
+@pytest.mark.parametrize("size", [0.0, 0.016])
+def test_an_eccentricity_far_below_a_count_is_seen_through_the_rounding_of_speeds(size: float) -> None:
+    """Of 53 counts a turn, rows of 5 ms scatter by a dozen times what a disc does that is off by an eighth of one."""
+    values = BASE | {"eccentricity": size, "eccentricity_phase": 0.5}
+    motion = record(values, *profiles.staircase(6.0, 3, 0.5), seed=1, edges=53, single_channel=False)
+    recording = note_sensors([without_count(as_speed(check(motion[0])))])[0]
+    bare = fit_speeds(Estimate(make_problem([recording], ()), np.log([PAPER_KV, PAPER_KA])))
+    found = add_periodic_effect(bare, "encoder_eccentricity", LINE_CHANCE)
+    assert (found is None) == (size == 0.0)
+    if found is not None:
+        assert found.parameters.values["eccentricity"] == pytest.approx(size, rel=0.1)
+
+
 @pytest.mark.parametrize(
     ("slot", "both", "chance"), [(0.0, False, PHASE_CHANCE), (0.1, False, SLIP_CHANCE), (0.0, True, 0.0)]
 )
@@ -233,6 +249,10 @@ def test_runs_that_each_turn_as_it_fits_best_explain_by_chance(
     bare = cast(Estimate, SimpleNamespace(problem=problem, increments=(np.zeros(runs),)))
     explained = side * (chance * (runs - 1) + least)
     aligned = Aligned(0.01 + 0j, np.zeros(runs), explained)
+    white = Whitening(np.ones(runs, dtype=bool), np.zeros(runs), np.ones(runs))
+    monkeypatch.setattr(periodic_fit, "estimate_noise", lambda _: Noise(0.0, 0.0))
+    monkeypatch.setattr(periodic_fit, "make_noise", lambda *_: None)
+    monkeypatch.setattr(periodic_fit, "make_whitening", lambda *_: white)
     monkeypatch.setattr(periodic_fit, "align_wave", lambda *_: aligned)
     start = periodic_fit._start_eccentricity(bare, (cast(Track, track),), least)
     assert (start is not None) is (side > 1.0)
