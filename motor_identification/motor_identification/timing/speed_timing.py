@@ -39,8 +39,8 @@ from motor_model.sample import Measurement
 # where it is another; up to 17 in all (0.004 a row) where it is as assumed and something else is missing; 0 to 25
 # (0.03) in logs of others, of which nobody knows.
 LEAST_GAIN, LEAST_GAIN_OF_ROW = 20.0, 0.02
-# A row, of values of their rows' own instants, which make the motion half a row later and nothing early. Measured: 0.008
-# to 0.018 of tachogenerators in thousands of rows, one of which had a Coulomb friction made up for it; 0.003 of counts.
+# A row, of values of their rows' own instants, which make the motion half a row later and nothing early. Measured:
+# 0.008 to 0.018 of tachogenerators in thousands of rows, of which one had a friction made up for it; 0.003 of counts.
 LEAST_GAIN_OF_INSTANT = 0.006
 # A row, of a slot that no stays show. Measured: 0.01 to 0.9 of most speeds over times between edges; of 107 other logs
 # at most 0.04 where it is 14 and less in all, and below 0.009 where it is more.

@@ -1,6 +1,7 @@
 """Whether what an effect takes away is likely and matters, on models of made-up gaps and likelihoods."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -68,6 +69,19 @@ def test_beside_a_torque_a_gap_may_grow_by_chance_where_held_out_motion_speaks_f
 ) -> None:
     before, model = beside_torque(2.0, -100.0), beside_torque(2.0 * growth, -100.0 + said, 60.0)
     assert CandidateTest(effect, before, model).relevant is relevant
+
+
+@pytest.mark.parametrize(
+    ("growth", "lasting", "relevant"), [(1.01, 0.999, True), (1.01, 1.001, False), (1.0, 1.001, True)]
+)
+def test_what_lasts_grows_no_more_than_a_gap_may_by_chance(
+    growth: float, lasting: float, relevant: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A drag was named, likelier by 27, by which what lasts grew by half, and a coarse sensor's gap by 7 %."""
+    before, model = beside_torque(2.0, -100.0), beside_torque(2.0 * growth, -90.0, 60.0)
+    after = SimpleNamespace(gap=2.0 * lasting * thresholds.GAP_CHANCE)
+    monkeypatch.setattr(CandidateTest, "_join_lasting", lambda _: (SimpleNamespace(gap=2.0), after))
+    assert CandidateTest("quadratic_drag", before, model).relevant is relevant
 
 
 @pytest.mark.parametrize(
