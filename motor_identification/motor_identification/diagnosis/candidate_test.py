@@ -165,12 +165,19 @@ def takes_away_more(model: Model, plain: Model) -> bool:
     """Decide whether a model beside a random torque has what is there, beyond one that the sensor's floor explains.
 
     A torque was learned; or there is more than a lag, which may be of the recording; or that takes away of the gap, or
-    of what lasts of it.
+    of what lasts of it, or is longer than rows are late.
     """
-    more = set(model.effects) - set(plain.effects) - set(LAGS)
+    added = set(model.effects) - set(plain.effects)
+    more = {name for name in added if name not in LAGS or _is_longer_than_rows_are_late(model, name)}
     shrinks = model.held.gap < thresholds.SHRINKING_GAP * plain.held.gap
     shrinks = shrinks or model.lasting.gap < thresholds.SHRINKING_LASTING_GAP * plain.lasting.gap
     return model.errors.rms_voltage > 0.0 or shrinks or bool(more)
+
+
+def _is_longer_than_rows_are_late(model: Model, lag: str) -> bool:
+    estimate = model.estimate
+    seconds = estimate.parameters.value(EFFECT_BY_NAME[lag].parameters[0].name)
+    return seconds > thresholds.LATE_ROW * estimate.problem.sample_period
 
 
 def likelihood_threshold() -> float:

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -16,7 +16,9 @@ from motor_identification.diagnosis.candidate_test import (
     share_explained,
     takes_away_more,
 )
+from motor_identification.estimation.estimate import Estimate
 from motor_identification.noise.error_model import ErrorModel
+from motor_model.effects import LAGS
 from motor_model.parameters import PAPER_KA, PAPER_KV
 
 
@@ -186,7 +188,7 @@ def test_a_lag_beside_no_torque_has_to_take_away_of_the_gap(
     monkeypatch: pytest.MonkeyPatch, more: tuple[str, ...], torque: float, falls: float, taken: bool
 ) -> None:
     """It may be of the recording: a clock, a filter."""
-    plain, model = stub_model(2.0), stub_model(2.0 * thresholds.SHRINKING_GAP * falls)
+    plain, model = stub_model(2.0), stub_model(2.0 * thresholds.SHRINKING_GAP * falls, estimate=late_by(0.1))
     effects: dict[int, Any] = {id(model): more}
     monkeypatch.setattr(StubModel, "effects", property(lambda self: effects.get(id(self), ())))
     monkeypatch.setattr(StubModel, "errors", ErrorModel(0.0, 0.0, torque, 1.0))
@@ -196,10 +198,29 @@ def test_a_lag_beside_no_torque_has_to_take_away_of_the_gap(
 @pytest.mark.parametrize(("falls", "taken"), [(1.001, False), (0.999, True)])
 def test_a_lag_may_take_away_of_what_lasts_alone(monkeypatch: pytest.MonkeyPatch, falls: float, taken: bool) -> None:
     """From row to row a coarse sensor hides it."""
-    plain, model = stub_model(2.0, 1.0), stub_model(2.0, thresholds.SHRINKING_LASTING_GAP * falls)
+    lasting = thresholds.SHRINKING_LASTING_GAP * falls
+    plain, model = stub_model(2.0, 1.0), stub_model(2.0, lasting, estimate=late_by(0.1))
     effects: dict[int, Any] = {id(model): ("armature_inductance",)}
     monkeypatch.setattr(StubModel, "effects", property(lambda self: effects.get(id(self), ())))
     assert takes_away_more(model, plain) is taken
+
+
+@pytest.mark.parametrize("lag", LAGS)
+@pytest.mark.parametrize(("rows", "taken"), [(0.49, False), (0.51, True)])
+def test_a_lag_longer_than_rows_are_late_is_the_motors(
+    monkeypatch: pytest.MonkeyPatch, lag: str, rows: float, taken: bool
+) -> None:
+    """A delay of a row of 1 ms, known within a hundredth of it, was taken for one of the recording."""
+    plain, model = stub_model(2.0), stub_model(2.0, estimate=late_by(rows))
+    effects: dict[int, Any] = {id(model): (lag,)}
+    monkeypatch.setattr(StubModel, "effects", property(lambda self: effects.get(id(self), ())))
+    assert takes_away_more(model, plain) is taken
+
+
+def late_by(rows: float) -> Estimate:
+    """An estimate of a motor that is late by so many rows, by whatever makes it late."""
+    parameters = SimpleNamespace(value=lambda name: 0.001 * rows)
+    return cast(Estimate, SimpleNamespace(parameters=parameters, problem=SimpleNamespace(sample_period=0.001)))
 
 
 @pytest.mark.parametrize(
