@@ -12,7 +12,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from scipy.linalg import solveh_banded
 
-from motor_identification.recording import Floats
+from motor_identification.recording import Floats, Integers
 
 LEAST_ROWS = 50
 LEAST_JITTER = 0.01  # of a row: standard deviation of lateness that matters
@@ -34,6 +34,9 @@ LONGEST = 5.0
 LEAST_RUN_AWAY = 1e-4  # of a row: less is an even clock
 # Of what a clock was estimated to run away, beside none: lateness that is not white looks like running away.
 RUN_AWAY = (0.25, 0.5, 1.0)
+EVEN = 0.25  # of a row, within which most rows are a whole number of rows long: else nothing tells which are missing
+MOST_EVEN = 0.99  # of the rows: of stamps that are late by chance one in 20,000 is then late by half a row
+MOST_MISSING = 0.2  # of all rows: with more of them missing a row is no row
 
 
 class Clock(NamedTuple):
@@ -52,13 +55,15 @@ def lay_clocks(stamps: Floats) -> list[Clock]:
     """
     if len(stamps) < LEAST_ROWS or _is_torn(stamps):
         return []
-    row = np.arange(len(stamps), dtype=np.float64)
+    number = number_rows(stamps)
+    row = np.asarray(np.arange(len(stamps)) if number is None else number, dtype=np.float64)
     slope, begin = np.polyfit(row, stamps, 1)
-    late, run_away = _split_jitter(stamps, slope)
+    late, run_away = _split_jitter(stamps, row, slope)
     if slope <= 0.0 or late < LEAST_JITTER * slope:
         return []
     even = begin + slope * row
-    lacking = _count_lacking(stamps - even, slope, count_neighbours(late / slope))
+    sure = number is not None
+    lacking = np.zeros(1) if sure else _count_lacking(stamps - even, slope, count_neighbours(late / slope))
     shares = RUN_AWAY if run_away > LEAST_RUN_AWAY * slope else ()
     laid = [(0.0, even)]
     laid += [(share, even + _smooth(stamps - even, (late / (share * run_away)) ** 2)) for share in shares]
@@ -66,6 +71,20 @@ def lay_clocks(stamps: Floats) -> list[Clock]:
         laid.insert(0, (0.0, np.polyval(np.polyfit(row + lacking, stamps, 1), row + lacking)))
     clocks = [Clock(share, np.asarray(time, np.float64)) for share, time in laid if np.min(np.diff(time)) > 0.0]
     return [clock for clock in clocks if _is_near(clock.time, stamps, late, slope)]
+
+
+def number_rows(time: Floats) -> Integers | None:
+    """Number rows at times [s] (K,) among all that there were; None where none is missing, or nothing tells which."""
+    steps = np.diff(time)
+    usual = float(np.median(steps)) if len(steps) else 0.0
+    if usual <= 0.0:
+        return None
+    rows = steps / usual
+    whole = np.maximum(np.rint(rows), 1.0)
+    even = float(np.mean(np.abs(rows - whole) < EVEN)) > MOST_EVEN
+    number = np.append(0, np.cumsum(whole)).astype(np.int64)
+    missing = 1.0 - len(number) / float(number[-1] + 1)
+    return number if even and 0.0 < missing < MOST_MISSING else None
 
 
 def _is_torn(stamps: Floats) -> bool:
@@ -82,9 +101,11 @@ def _is_near(clock: Floats, stamps: Floats, late: float, slope: float) -> bool:
     return jitter < MOST_JITTER * slope and float(np.max(np.abs(off))) < MOST_LATE * max(late, jitter)
 
 
-def _split_jitter(stamps: Floats, slope: float) -> tuple[float, float]:
-    """Split the jitter of stamps [s] into what each is late on its own and what the clock runs away in a row."""
-    steps = np.clip(np.diff(stamps) - slope, -2.0 * slope, 2.0 * slope)  # a row that is lacking is neither
+def _split_jitter(stamps: Floats, row: Floats, slope: float) -> tuple[float, float]:
+    """Split the jitter of stamps [s] of these rows into what each is late on its own and a clock runs away in a row."""
+    steps = np.clip(
+        np.diff(stamps) - slope * np.diff(row), -2.0 * slope, 2.0 * slope
+    )  # a row that is lacking is neither
     steps -= steps.mean()
     late = max(-float(np.mean(steps[1:] * steps[:-1])), 0.0)
     return sqrt(late), sqrt(max(float(np.mean(steps**2)) - 2.0 * late, 0.0))

@@ -16,8 +16,10 @@ from math import atan, log, pi, tan
 
 import numpy as np
 
-from motor_identification.recording import Floats
+from motor_identification.recording import Floats, Integers
+from motor_identification.sensor.row_clock import number_rows
 from motor_identification.sensor.running_mean import take_single_rows
+from motor_identification.timing.whole_rows import undo_on_whole_rows
 from motor_model.errors import ModelError
 
 FORGOTTEN = 0.05  # of what is wrong, within a mean's length: 1 − r^N
@@ -97,11 +99,32 @@ class SpeedFilter:
         """The polynomial B with zeros pulled in, and A's gain at rest."""
         return reduce(np.convolve, map(_make_zeros, KINDS[self.kind].means(self.number)), np.array([self.poles.sum()]))
 
-    def undo(self, speed: Floats) -> Floats:
-        """Compute the speeds (K,) that went in, of those that came out: the first one had long been as it is."""
+    def undo(self, speed: Floats, time: Floats | None = None) -> Floats:
+        """Compute the speeds (K,) that went in, of those that came out: the first one had long been as it is.
+
+        time: [s] of their rows, shape (K,), of which some may be missing; without, none is.
+        """
+        number = None if time is None else number_rows(time)
+        return self._undo_all(speed) if number is None else self.undo_whole(speed, number)[number]
+
+    def undo_whole(self, speed: Floats, number: Integers) -> Floats:
+        """Compute the speeds (R,) that went in at all rows, of those (K,) that were logged of rows of these numbers."""
+        kept = max(KINDS[self.kind].means(self.number), default=0)
+        return undo_on_whole_rows(self._undo_plainly, speed, number, self.delay, kept)
+
+    def _undo_all(self, speed: Floats) -> Floats:
+        return reduce(undo_mean, KINDS[self.kind].means(self.number), self._undo_poles(speed))
+
+    def _undo_plainly(self, speed: Floats) -> Floats:
+        """Undo by the polynomials alone, without what was in a mean before the first row."""
+        plain = self._undo_poles(speed)
+        for rows in KINDS[self.kind].means(self.number):
+            plain = _filter([1.0], _make_zeros(rows), plain - plain[0]) + plain[0]
+        return plain
+
+    def _undo_poles(self, speed: Floats) -> Floats:
         poles = self.poles
-        values = _filter(poles, [np.sum(poles)], speed - speed[0]) + speed[0]
-        return reduce(undo_mean, KINDS[self.kind].means(self.number), np.asarray(values))
+        return np.asarray(_filter(poles, [np.sum(poles)], speed - speed[0]) + speed[0])
 
     @property
     def log_first(self) -> float:

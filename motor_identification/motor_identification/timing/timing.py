@@ -57,7 +57,7 @@ class Timing:
 
     def _set(self, recording: Recording) -> Recording:
         if self.filter and self._smooths(recording, self.filter):
-            recording = replace(recording, speed=self.filter.undo(recording.speed))
+            recording = replace(recording, speed=self.filter.undo(recording.speed, recording.time))
         if self.is_early and is_voltage_open(recording):
             return _hold_until(recording)
         if not is_open(recording):

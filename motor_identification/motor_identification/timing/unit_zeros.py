@@ -11,9 +11,10 @@ from math import log, sqrt
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from motor_identification.recording import Bools, Floats, Recording
+from motor_identification.recording import Bools, Floats, Integers, Recording
+from motor_identification.sensor.row_clock import number_rows
 from motor_identification.sensor.speed_sensor import mark_motion
-from motor_identification.timing.speed_filter import LEAST_ROWS, MOST_ROWS, measure_part, undo_mean
+from motor_identification.timing.speed_filter import LEAST_ROWS, MEAN, MOST_ROWS, SpeedFilter, measure_part, undo_mean
 
 PAST = 6  # speeds and voltages before that predict the next one
 # Of log likelihood, in all and a row. Measured: 0.03 to 0.8 a row behind a mean; 0.005 at most, and 21 in all, in fifty
@@ -31,23 +32,38 @@ def find_means(recordings: Sequence[Recording]) -> tuple[int, ...]:
     """
     longest = max(recordings, key=len)
     speed, voltage = longest.speed[:MOST_SPEEDS], longest.voltage[:MOST_SPEEDS]
-    moving = mark_motion(speed)[PAST:]
+    number = number_rows(longest.time[: len(speed)])
+    moving = mark_motion(speed)[PAST:] if number is None else _mark_whole(mark_motion(speed), number)
+    if number is not None:
+        voltage = voltage[np.searchsorted(number, np.arange(int(number[-1]) + 1), side="right") - 1]
     count = int(np.count_nonzero(moving))
     if count < LEAST_SPEEDS:
         return ()
     most = min(MOST_ROWS, int(LONGEST * len(speed)))
-    cost = {rows: _measure_cost(speed, voltage, moving, rows) for rows in range(1, most + 1)}
+    cost = {rows: _measure_cost(_undo(speed, rows, number), voltage, moving, rows) for rows in range(1, most + 1)}
     least = max(LEAST_GAIN / count, LEAST_GAIN_OF_ROW)
     likely = {min(cost, key=lambda rows: cost[rows]), LEAST_ROWS}
     return tuple(rows for rows in sorted(likely) if cost[1] - cost[rows] > least)
 
 
-def _measure_cost(speed: Floats, voltage: Floats, moving: Bools, rows: int) -> float:
-    """Measure minus the mean logarithm of the density of speeds (K,), if they were such means, but for a constant.
+def _undo(speed: Floats, rows: int, number: Integers | None) -> Floats:
+    """Compute what went into a mean of so many rows, at all rows; numbers: of those that were logged, if not all."""
+    return undo_mean(speed, rows) if number is None else SpeedFilter(MEAN, rows).undo_whole(speed, number)
 
-    moving: those that count, without the first ones, shape (K − PAST,).
+
+def _mark_whole(moving: Bools, number: Integers) -> Bools:
+    """Mark the rows in motion, of all, before which none is missing, without the first ones, shape (R − PAST,)."""
+    logged = np.zeros(int(number[-1]) + 1, dtype=bool)
+    whole = logged.copy()
+    logged[number], whole[number] = True, moving
+    return np.asarray(whole[PAST:] & sliding_window_view(logged, PAST + 1).all(axis=1))
+
+
+def _measure_cost(values: Floats, voltage: Floats, moving: Bools, rows: int) -> float:
+    """Measure minus the mean logarithm of the density of means of so many rows, into which values (K,) went.
+
+    But for a constant. moving: those that count, without the first ones, shape (K − PAST,).
     """
-    values = undo_mean(speed, rows)
     past = sliding_window_view(values[:-1], PAST)[moving]
     driven = sliding_window_view(voltage, PAST + 1)[: len(moving)][moving]
     columns, target = np.column_stack([np.ones(len(past)), past, driven]), values[PAST:][moving]

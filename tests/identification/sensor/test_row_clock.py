@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from motor_identification.sensor.row_clock import MOST_NEIGHBOURS, NEIGHBOURS, count_neighbours, lay_clocks
+from motor_identification.sensor.row_clock import MOST_NEIGHBOURS, NEIGHBOURS, count_neighbours, lay_clocks, number_rows
 
 ROWS, PERIOD = 800, 0.01  # [s]
 
@@ -65,3 +65,29 @@ def test_exact_stamps_and_few_have_none() -> None:
     even = PERIOD * np.arange(ROWS)
     assert lay_clocks(even) == [] and lay_clocks(np.zeros(ROWS)) == []
     assert lay_clocks((even + 0.2 * PERIOD * np.random.default_rng(3).random(ROWS))[:49]) == []
+
+
+@pytest.mark.parametrize(("late", "share", "told"), [(0.0, 0.03, True), (0.05, 0.15, True), (0.05, 0.25, False)])
+def test_rows_that_are_missing_are_numbered_where_the_others_are_even(late: float, share: float, told: bool) -> None:
+    random = np.random.default_rng(4)
+    logged = np.append(True, random.random(ROWS - 1) > share)
+    number = number_rows((PERIOD * (np.arange(ROWS) + late * random.exponential(size=ROWS)))[logged])
+    assert (number is not None) is told
+    if number is not None:
+        assert np.array_equal(number, np.flatnonzero(logged))
+
+
+def test_no_row_is_missing_where_none_is_or_rows_are_uneven() -> None:
+    random = np.random.default_rng(5)
+    assert number_rows(PERIOD * np.arange(ROWS)) is None
+    assert number_rows(PERIOD * np.cumsum(1.0 + 0.3 * random.standard_normal(ROWS))) is None
+    assert number_rows(np.zeros(2)) is None
+
+
+def test_a_clock_is_laid_through_what_is_left_of_many_missing_rows() -> None:
+    """Of 3 % of the rows, and stamps that are late by a twentieth of one, a clock was laid without a gap."""
+    random = np.random.default_rng(6)
+    logged = np.append(True, random.random(ROWS - 1) > 0.03)
+    clock = lay_clocks((PERIOD * (np.arange(ROWS) + 0.05 * random.exponential(size=ROWS)))[logged])[0]
+    steps = np.diff(clock.time) / PERIOD
+    assert np.array_equal(np.rint(steps), np.diff(np.flatnonzero(logged))) and np.max(np.abs(steps % 1.0 - 0.5)) > 0.49

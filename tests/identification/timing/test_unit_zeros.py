@@ -23,6 +23,15 @@ def test_the_rows_of_a_mean_are_found(rows: int) -> None:
     assert find_means([filtered(noisy(0.5), np.full(rows, 1.0 / rows))]) == (rows,)
 
 
+@pytest.mark.parametrize("rows", [2, 5, 10])
+def test_the_rows_of_a_mean_are_found_though_rows_are_missing(rows: int) -> None:
+    """One in a hundred hid them, and a lag and what is outside the table were missing instead."""
+    plain, random = noisy(0.5), np.random.default_rng(0)
+    logged = np.append(True, random.random(len(plain) - 1) > 0.02)
+    assert find_means([filtered(plain, np.full(rows, 1.0 / rows)).at_rows(np.flatnonzero(logged))]) == (rows,)
+    assert find_means([check(plain.at_rows(np.flatnonzero(logged)))]) == ()
+
+
 @pytest.mark.parametrize("rows", [2, 8])
 def test_a_mean_of_counts_is_found_wherever_a_log_begins(rows: int) -> None:
     counted = filtered(without_count(as_speed(recorded(edges=96))), np.full(rows, 1.0 / rows))
