@@ -20,7 +20,7 @@ from motor_identification.noise.error_data import ErrorData, log_likelihood, mak
 from motor_identification.noise.error_learning import learn_error_model
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.timing.shaped_fit import BEGIN, ITERATIONS, TOLERANCE, Shaper
-from motor_identification.timing.timing import ASSUMED, LEAST_DELAY, UNTIL
+from motor_identification.timing.timing import ASSUMED, LEAST_DELAY, UNTIL, is_voltage_open
 
 # Of log likelihood, in all and a row, which the later reading has to be worth. Measured in some hundred simulated logs,
 # written either way, with nothing late in them: 20 to 1,100 (0.015 to 0.5 a row) where voltages held until their rows
@@ -29,6 +29,15 @@ from motor_identification.timing.timing import ASSUMED, LEAST_DELAY, UNTIL
 LEAST_GAIN, LEAST_GAIN_OF_ROW = 20.0, 0.02
 MOST_DELAY = 0.5  # rows: with a longer dead time the voltage of half a row earlier is nearer
 ROUNDS = 2  # of learning the torque that is left, and fitting beside it
+# Of ka, and its standard errors: what it has to differ by from reading to reading for that to be said. No row that
+# is a smaller part of the time constant makes it differ so much.
+MATTERS, SURE_ERRORS = 0.05, 3.0
+# Of log likelihood: a later reading that is less likely by more is none, as far as a fit without all effects goes.
+AS_LIKELY = 10.0
+UNTOLD = (
+    "From when on a row's voltage holds was not said, and this log does not tell: of voltages that held until their "
+    "rows (import_log --voltage-before) ka would be {:.3g} instead of {:.3g} V·s²/rad."
+)
 
 
 @dataclass(frozen=True)
@@ -57,6 +66,23 @@ def held_until(shaper: Shaper) -> bool:
     later = _fit_beside_torque(_read_later(first))
     gain = later.likelihood - as_logged.likelihood
     return later.delay < MOST_DELAY and gain > max(LEAST_GAIN, LEAST_GAIN_OF_ROW * count_intervals(first))
+
+
+def describe_untold(estimate: Estimate, error: float) -> list[str]:
+    """Say what ka would be of voltages that held until their rows, where nobody said it and the log does not tell.
+
+    error: the standard error of ka. Nothing where it is much the same.
+    """
+    problem = estimate.problem
+    short = problem.sample_period < MATTERS * estimate.parameters.time_constant
+    if short or not all(map(is_voltage_open, problem.recordings)):
+        return []
+    as_logged, later = _fit_beside_torque(estimate), _fit_beside_torque(_read_later(estimate))
+    ka, other = (reading.estimate.parameters.value("ka") for reading in (as_logged, later))
+    alike = abs(other - ka) <= max(MATTERS * ka, SURE_ERRORS * error)
+    if alike or later.likelihood < as_logged.likelihood - AS_LIKELY:
+        return []
+    return [UNTOLD.format(other, ka)]
 
 
 def count_intervals(estimate: Estimate) -> int:

@@ -147,4 +147,5 @@ def is_open(recording: Recording) -> bool:
 
 def _hold_until(recording: Recording) -> Recording:
     """Read a recording's voltages as those that held until their rows."""
-    return replace(recording, voltage=np.append(recording.voltage[1:], recording.voltage[-1]))
+    info = replace(recording.info, voltage_assumed=False)
+    return replace(recording, info=info, voltage=np.append(recording.voltage[1:], recording.voltage[-1]))

@@ -11,6 +11,7 @@ from motor_identification.estimation.problem import Problem
 from motor_identification.estimation.request import SearchReport
 from motor_identification.estimation.whitened_fit import WhitenedFit
 from motor_identification.recording import Floats
+from motor_identification.timing.held_until import describe_untold
 from motor_identification.uncertainty.absence import find_absent_effects
 from motor_identification.uncertainty.identifiability import find_confusable_effects, suggest_profile
 from motor_identification.uncertainty.recording_consistency import compare_recordings, describe_worst_dissent
@@ -47,7 +48,7 @@ def summarise_fit(
     open_ones = tuple(name for name in sure.not_identifiable if name not in nowhere)
     alike = {effect: rivals for effect, rivals in alike.items() if effect not in absent}
     errors = unknowns.value_errors(theta, sure.errors)
-    cost = fit.estimate.cost
+    cost, untold = fit.estimate.cost, describe_untold(fit.estimate, errors["ka"])
     return Fit(
         parameters=fit.estimate.parameters,
         standard_errors={name: nan if name in noise else error for name, error in errors.items()},
@@ -66,7 +67,7 @@ def summarise_fit(
         search=search,
         evaluations=fit.estimate.simulations,
         uris=tuple(recording.uri for recording in fit.problem.recordings),
-        notes=(*_list_own_notes(fit), *_describe_split(unknowns, theta, errors), *notes),
+        notes=(*_list_own_notes(fit), *_describe_split(unknowns, theta, errors), *untold, *notes),
         duration=elapsed(),
     )
 

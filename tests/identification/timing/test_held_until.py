@@ -15,12 +15,15 @@ from tiers import keep_fast
 
 from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis.result import Verdict
+from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.request import SearchConfig
 from motor_identification.estimation.search.global_search import search_globally
 from motor_identification.identify import Request, identify
+from motor_identification.noise.error_model import ErrorModel
 from motor_identification.recording import Recording, check, recording_of
 from motor_identification.timing import held_until as module
+from motor_identification.timing.held_until import _Reading, describe_untold
 from motor_identification.timing.shaped_fit import Shaper
 from motor_identification.timing.speed_timing import find_timing
 from motor_identification.timing.timing import ASSUMED, UNTIL, Timing, is_voltage_open, read_again
@@ -29,6 +32,7 @@ from motor_model.sample import Info, Measurement, Sample
 Floats = NDArray[np.float64]
 
 ROW = 0.02  # [s]
+NONE = ErrorModel(0.0, 0.0, 0.0, 1.0)
 
 
 def counted(assumed: bool = True, seed: int = 0, **motor: float) -> Recording:
@@ -170,7 +174,8 @@ def test_a_loop_that_answers_a_random_torque_is_not_answered_before(seed: int) -
 def test_a_timing_of_counts_is_that_of_their_voltages_alone() -> None:
     logged = counted()
     read = read_again(until(logged), UNTIL)
-    assert read.voltage[:-1] == pytest.approx(logged.voltage[:-1]) and read.info == logged.info
+    assert read.voltage[:-1] == pytest.approx(logged.voltage[:-1])
+    assert read.info == replace(logged.info, voltage_assumed=False)  # it is found
     assert "taken as those that held until their rows" in read.notes[-1]
     said = counted(assumed=False)
     assert read_again(said, UNTIL).voltage is said.voltage and read_again(said, UNTIL).notes == ()
@@ -186,3 +191,44 @@ def test_a_fit_and_a_diagnosis_use_what_was_found() -> None:
     found = diagnose([late])
     assert [one.effect for one in found.findings] == ["coulomb_friction"] and found.verdict is Verdict.EXPLAINED
     assert any("held until their rows" in note for note in found.model.notes)
+
+
+@pytest.mark.parametrize(
+    ("times", "gain", "error", "said"),
+    [
+        (1.06, 0.0, 0.0, True),
+        (0.94, 19.0, 0.0, True),
+        (1.04, 0.0, 0.0, False),  # much the same
+        (1.3, -9.9, 0.09, True),
+        (1.3, -9.9, 0.11, False),  # as far as its standard error goes
+        (1.3, -10.1, 0.0, False),  # the log tells
+    ],
+)
+def test_what_inertia_would_be_by_the_other_voltages_is_said_where_nothing_tells(
+    times: float, gain: float, error: float, said: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It was 43 % off, and 56 of its standard errors, without a word."""
+    estimate, _ = search_globally(make_problem([counted()], ()), SearchConfig())
+    ka = estimate.parameters.value("ka")
+    other = SimpleNamespace(parameters=SimpleNamespace(value=lambda name: {"ka": times * ka}[name]))
+    readings = iter([_Reading(estimate, NONE, 0.0), _Reading(cast(Estimate, other), NONE, gain)])
+    monkeypatch.setattr(module, "_fit_beside_torque", lambda one: next(readings))
+    monkeypatch.setattr(module, "MATTERS", 0.05)
+    assert bool(describe_untold(estimate, error * ka)) is said
+
+
+def test_a_quick_motor_on_a_coarse_encoder_has_two_inertias_by_when_its_voltages_hold() -> None:
+    """Whichever the log is read by, and right by the one that is true; one that was told, or is slow, has one."""
+    drive = profiles.ramps(6.0, 8.0)
+    fast = {"kv": 0.05, "ka": 0.001}
+    recording, _ = record(fast, *drive, seed=0, edges=12, sample_rate=1.0 / ROW, single_channel=False)
+    logged = assume(as_counts(recording))
+    (note,) = list_untold(until(logged))
+    assert float(note.split("ka would be ")[1].split()[0]) == pytest.approx(fast["ka"], rel=0.05)
+    (note,) = list_untold(logged)
+    assert float(note.split("instead of ")[1].split()[0]) == pytest.approx(fast["ka"], rel=0.05)
+    assert list_untold(assume(as_counts(recording), False)) == [] and list_untold(counted()) == []
+
+
+def list_untold(recording: Recording) -> list[str]:
+    return [note for note in identify([recording], Request()).notes if "ka would be" in note]
