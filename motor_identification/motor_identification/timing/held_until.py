@@ -9,18 +9,22 @@ and late by less than half a row: a reading that is taken by mistake would hide 
 """
 
 from dataclasses import dataclass, replace
+from math import tau
 
 import numpy as np
 
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_residuals, fit_speeds
 from motor_identification.estimation.parameter_space import map_theta
+from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.whitened_fit import FilteredResiduals
 from motor_identification.noise.error_data import ErrorData, log_likelihood, make_error_data, make_whitening
 from motor_identification.noise.error_learning import learn_error_model
 from motor_identification.noise.error_model import ErrorModel
+from motor_identification.recording import Recording
+from motor_identification.sensor.speed_sensor import find_counts
 from motor_identification.timing.shaped_fit import BEGIN, ITERATIONS, TOLERANCE, Shaper
-from motor_identification.timing.timing import ASSUMED, LEAST_DELAY, UNTIL, is_voltage_open
+from motor_identification.timing.timing import ASSUMED, LEAST_DELAY, OTHERS, UNTIL, is_open, is_voltage_open
 
 # Of log likelihood, in all and a row, which the later reading has to be worth. Measured in some hundred simulated logs,
 # written either way, with nothing late in them: 20 to 1,100 (0.015 to 0.5 a row) where voltages held until their rows
@@ -34,9 +38,14 @@ ROUNDS = 2  # of learning the torque that is left, and fitting beside it
 MATTERS, SURE_ERRORS = 0.05, 3.0
 # Of log likelihood: a later reading that is less likely by more is none, as far as a fit without all effects goes.
 AS_LIKELY = 10.0
+MOST_COUNTS = 20_000  # a turn, of an encoder
 UNTOLD = (
     "From when on a row's voltage holds was not said, and this log does not tell: of voltages that held until their "
-    "rows (import_log --voltage-before) ka would be {:.3g} instead of {:.3g} V·s²/rad."
+    "rows (import_log --voltage-before)"
+)
+UNTOLD_SPEEDS = (
+    "When speeds were made was not said, and this log does not tell: of values of their rows' own instants (import_log "
+    "--speed-window {:.3g} --speed-lag 0)"
 )
 
 
@@ -69,20 +78,36 @@ def held_until(shaper: Shaper) -> bool:
 
 
 def describe_untold(estimate: Estimate, error: float) -> list[str]:
-    """Say what ka would be of voltages that held until their rows, where nobody said it and the log does not tell.
+    """Say what ka would be by another timing of the rows, where nobody said it and the log does not tell.
 
+    Of counts, if voltages held until their rows; of speeds that are none, if they are of their rows' own instants.
     error: the standard error of ka. Nothing where it is much the same.
     """
     problem = estimate.problem
-    short = problem.sample_period < MATTERS * estimate.parameters.time_constant
-    if short or not all(map(is_voltage_open, problem.recordings)):
+    if problem.sample_period < MATTERS * estimate.parameters.time_constant:
         return []
-    as_logged, later = _fit_beside_torque(estimate), _fit_beside_torque(_read_later(estimate))
-    ka, other = (reading.estimate.parameters.value("ka") for reading in (as_logged, later))
-    alike = abs(other - ka) <= max(MATTERS * ka, SURE_ERRORS * error)
-    if alike or later.likelihood < as_logged.likelihood - AS_LIKELY:
+    if all(map(is_voltage_open, problem.recordings)):
+        return _compare(estimate, _read_later(estimate), error, UNTOLD)
+    if all(is_open(one) and not _is_counted(one) for one in problem.recordings):
+        row = OTHERS[0].window * problem.sample_period
+        return _compare(estimate, _read_at_instants(estimate), error, UNTOLD_SPEEDS.format(row))
+    return []
+
+
+def _is_counted(recording: Recording) -> bool:
+    """Whether speeds are multiples of a count in a row, and of no converter's step, which is finer than encoders'."""
+    step = find_counts(recording.speed, recording.sample_period)
+    return step * recording.sample_period * MOST_COUNTS > tau
+
+
+def _compare(estimate: Estimate, other: Estimate, error: float, text: str) -> list[str]:
+    """Say ka by two readings, the other and this, where it differs and the other is as likely."""
+    here, there = _fit_beside_torque(estimate), _fit_beside_torque(other)
+    ka, of_other = (reading.estimate.parameters.value("ka") for reading in (here, there))
+    alike = abs(of_other - ka) <= max(MATTERS * ka, SURE_ERRORS * error)
+    if alike or there.likelihood < here.likelihood - AS_LIKELY:
         return []
-    return [UNTOLD.format(other, ka)]
+    return [f"{text} ka would be {of_other:.3g} instead of {ka:.3g} V·s²/rad."]
 
 
 def count_intervals(estimate: Estimate) -> int:
@@ -96,6 +121,15 @@ def _read_later(estimate: Estimate) -> Estimate:
     unknowns = problem.unknowns
     begin = {"delay": np.full(len(problem.recordings), BEGIN * problem.sample_period)}
     theta = map_theta(unknowns, estimate.theta, unknowns, begin)
+    return fit_speeds(Estimate(problem, theta), np.inf, ITERATIONS, TOLERANCE)
+
+
+def _read_at_instants(estimate: Estimate) -> Estimate:
+    """Fit the same recordings with speeds of their rows' own instants."""
+    before = estimate.problem
+    recordings = OTHERS[0].set_on(before.recordings)
+    problem = make_problem(recordings, before.unknowns.effects, before.workers, before.stopped)
+    theta = map_theta(before.unknowns, estimate.theta, problem.unknowns, {})
     return fit_speeds(Estimate(problem, theta), np.inf, ITERATIONS, TOLERANCE)
 
 
@@ -115,7 +149,8 @@ def _fit_beside_torque(estimate: Estimate) -> _Reading:
 def _judge(estimate: Estimate) -> _Reading:
     rows = _list_errors(estimate)
     errors = learn_error_model(rows, estimate.lag)
-    return _Reading(estimate, errors, log_likelihood(rows, errors, estimate.lag))
+    size = sum(float(np.sum(np.log(row.duration))) for row in rows)  # what was logged is a speed, not an angle
+    return _Reading(estimate, errors, log_likelihood(rows, errors, estimate.lag) + size)
 
 
 def _list_errors(estimate: Estimate) -> list[ErrorData]:

@@ -1,6 +1,7 @@
 """Voltages of counted logs held until their rows where the motion says so beyond doubt, and nowhere else."""
 
 from dataclasses import dataclass, replace
+from math import tau
 from types import SimpleNamespace
 from typing import cast
 
@@ -8,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from plant import profiles, record
-from recorded import as_counts, as_speed
+from recorded import as_counts, as_speed, without_count
 from scipy.signal import lfilter
 from swinging import RUBBING
 from tiers import keep_fast
@@ -228,6 +229,23 @@ def test_a_quick_motor_on_a_coarse_encoder_has_two_inertias_by_when_its_voltages
     (note,) = list_untold(logged)
     assert float(note.split("instead of ")[1].split()[0]) == pytest.approx(fast["ka"], rel=0.05)
     assert list_untold(assume(as_counts(recording), False)) == [] and list_untold(counted()) == []
+
+
+@pytest.mark.parametrize(("digits", "said"), [(9, True), (2, True), (0, False)])
+def test_a_quick_motor_has_two_inertias_by_when_its_speeds_were_made(digits: int, said: bool) -> None:
+    """A converter's steps are as fine as no encoder's; whole counts of 60 a turn are those of a row."""
+    drive, fast = profiles.ramps(6.0, 2.0), {"kv": 0.05, "ka": 0.001}
+    recording, truth = record(fast, *drive, seed=0, edges=960, sample_rate=1.0 / ROW, single_channel=False)
+    noisy = truth.speed + 1.0 * np.random.default_rng(0).standard_normal(len(truth.speed))
+    logged = replace(without_count(as_speed(recording)), speed=np.round(noisy, digits) if digits else noisy)
+    if not digits:
+        step = tau / 60.0 / ROW
+        logged = replace(logged, speed=step * np.round(noisy / step))
+    notes = list_untold(assume(logged))
+    assert bool(notes) is said
+    if said:
+        assert "--speed-lag 0" in notes[0] and "--voltage-before" not in notes[0]
+        assert float(notes[0].split("ka would be ")[1].split()[0]) == pytest.approx(fast["ka"], rel=0.05)
 
 
 def list_untold(recording: Recording) -> list[str]:
