@@ -17,6 +17,11 @@ TOO_STRONG = (
     "something else that moves the shaft."
 )
 NO_TORQUE = "What is left is no random torque: none is found beside it ({})."
+QUICK = (
+    " It lasts for less than a row and is {:.2g} % of the voltage that was applied: rather noise of the sensor, or "
+    "stamps that are off by a part of a row."
+)
+MUCH = 0.02  # of the largest voltage: the RMS of a torque that is no trifle
 NEGLIGIBLE = 1e-4  # of the largest voltage: the RMS of a torque that leaves nothing of a gap
 BREAKAWAY, PEAKS = "breakaway_voltage", 3.0  # standard deviations that a torque reaches now and then
 SUPPLY = (
@@ -79,7 +84,10 @@ def describe_disturbance(diagnosis: Diagnosis) -> str:
         return NO_TORQUE.format(strength)
     time = format_measured(found.correlation_time, found.time_error, "s")
     torque = f"The rest is random: a torque of {strength}, correlated over {time}."
+    row = min((one.sample_period for one in diagnosis.after.recordings), default=0.0)
     strong = TOO_STRONG.format(largest) if found.rms_voltage > largest else ""
+    if not strong and found.rms_voltage > MUCH * largest and found.correlation_time < row:
+        strong = QUICK.format(100.0 * found.rms_voltage / largest)
     return torque + strong + _describe_breakaway(diagnosis.findings, found)
 
 

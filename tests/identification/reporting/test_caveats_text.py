@@ -31,6 +31,21 @@ def test_a_torque_above_all_that_was_applied_is_none(
     assert (f"That is more than the {largest:.3g} V that was applied: rather noise of the sensor" in text) is said
 
 
+@pytest.mark.parametrize(
+    ("share", "rows", "said"), [(0.12, 0.99, True), (0.12, 1.01, False), (0.021, 0.5, True), (0.019, 0.5, False)]
+)
+def test_a_torque_that_lasts_for_less_than_a_row_is_rather_noise(
+    variants: dict[Verdict, Diagnosis], share: float, rows: float, said: bool
+) -> None:
+    """Stamps of whole milliseconds at 1 kHz were "a torque of 5.9 V RMS, correlated over 0.6 ms", of 48 V."""
+    one = variants[Verdict.UNDECIDED]
+    largest = max(float(np.abs(recording.voltage).max()) for recording in one.after.recordings)
+    row = min(recording.sample_period for recording in one.after.recordings)
+    text = summarize_diagnosis(replace(one, disturbance=Disturbance(share * largest, 0.001, rows * row, 1e-6)))
+    assert "The rest is random" in text
+    assert (f"less than a row and is {100.0 * share:.2g} % of the voltage that was applied" in text) is said
+
+
 @pytest.mark.parametrize(("share", "gap", "none"), [(9e-5, 5.0, True), (1.1e-4, 5.0, False), (9e-5, 1.0, False)])
 def test_a_torque_that_leaves_nothing_is_not_what_is_left(
     variants: dict[Verdict, Diagnosis], share: float, gap: float, none: bool
