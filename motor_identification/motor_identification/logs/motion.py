@@ -189,8 +189,12 @@ def _about_count(form: CsvForm, signals: Signals, edges: int, window: float) -> 
             f"Values are multiples of {step / unit:.4g} {form.unit}: one count within the window if the encoder has "
             f"{counts:.5g} per revolution (assumed; otherwise: --edges-per-revolution)."
         )
+    coarse = find_lattice(signals.motion)
+    said = "Speeds show no counts"
+    if coarse > 0.0 and _median_size(signals.motion) < MANY_A_ROW * coarse:
+        said = f"Speeds are multiples of {coarse:.4g} {form.unit}, too coarse to tell much (log more digits, or counts)"
     return (
-        f"Speeds show no counts: noise of {noise / unit:.2g} {form.unit}, as between neighbours, is assumed "
+        f"{said}: noise of {noise / unit:.2g} {form.unit}, as between neighbours, is assumed "
         "(otherwise: --edges-per-revolution)."
     )
 

@@ -8,7 +8,7 @@ import numpy as np
 from motor_identification.recording import Bools, Floats, Integers, Recording
 from motor_identification.sensor.held_samples import find_frames
 from motor_identification.sensor.unseen_starts import mark_unseen_starts
-from motor_identification.sensor.value_lattice import find_lattice, measure_blur
+from motor_identification.sensor.value_lattice import are_whole_products, find_lattice, measure_blur
 from motor_identification.sensor.white_noise import LEAST_SAMPLES, estimate_white_noise
 from motor_identification.sensor.wrong_speeds import mark_silent_rows, mark_wrong_speeds
 from motor_model.sample import Info, Measurement
@@ -92,7 +92,9 @@ def find_speed_sensor(recording: Recording) -> SpeedSensor:
     if not said and frames is None and is_assumed(recording.info) and np.std(lengths) > SAME_ROW * window:
         by_length = speed[row] * lengths / window  # counts of rows that differ lie on a lattice by their own lengths
         own, sigma_of_own, counts = find_noise(by_length, recording.voltage[row], window, counted, gear)
-        if own > 0.0 and (step <= 0.0 or measure_blur(by_length, own) < SHARPER * measure_blur(speed[row], step)):
+        whole = are_whole_products(speed[row], lengths, own * window)
+        sharper = step <= 0.0 or measure_blur(by_length, own) < SHARPER * measure_blur(speed[row], step)
+        if own > 0.0 and sharper and not whole:
             return SpeedSensor(row, made, window, lag, frame, own, sigma_of_own, counts, wrong, lengths)
     return SpeedSensor(row, made, window, lag, frame, step, sigma, edges, wrong)
 

@@ -34,7 +34,17 @@ LOWEST = 0.02  # of the sizes above 0, and times that size, below which all are 
 ONE_COUNT = 1.5
 SURE = 5.0  # standard errors that the mean of the sizes of so many counts may be off
 CHANCE = 1e-4  # that values without a lattice are given one
+WHOLE_PART = 0.01  # of a factor's own step that factors may be beside whole ones of it
 PARTS = (1.0, 0.5, 0.25)  # of the largest value: a window that jitters blurs large values, not small ones
+
+
+def are_whole_products(values: Floats, others: Floats, step: float) -> bool:
+    """Decide whether products of values (K,) and others (K,) are multiples of a step since each factor is of its own.
+
+    So are those of printed digits and rows of whole milliseconds, whatever was measured.
+    """
+    part = step / lattice if (lattice := find_lattice(values)) > 0.0 else 0.0
+    return part > 0.0 and bool(np.all(np.abs(others / part - np.rint(others / part)) < WHOLE_PART))
 
 
 def find_lattice(values: Floats, finest: float = FINEST) -> float:

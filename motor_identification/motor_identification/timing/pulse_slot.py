@@ -23,7 +23,11 @@ from motor_identification.sensor.pulses.pulse_periods import (
     find_slot_by_stays,
     score_stays,
 )
+from motor_identification.sensor.pulses.pulse_periods import (
+    STEPS as FINE_STEPS,
+)
 from motor_identification.sensor.pulses.timer_ticks import list_slots
+from motor_identification.sensor.value_lattice import find_lattice
 from motor_identification.timing.error_likelihood import measure_log_likelihood
 from motor_identification.timing.shaped_fit import ShapedFit, Shaper
 from motor_identification.timing.timing import LEAST_DELAY, Timing
@@ -70,6 +74,11 @@ def list_tick_slots(recordings: Sequence[Recording]) -> tuple[float, ...]:
     """List the slots [rad] that speeds may be over which are whole ticks of a timer; empty where they are none."""
     found = (list_slots(one.speed, LONGEST_SLOT) for one in recordings)
     return next((slots for slots in found if slots), ())
+
+
+def are_coarse(recordings: Sequence[Recording]) -> bool:
+    """Decide whether speeds are so few of their own steps that they do not tell how much time a slot took."""
+    return any(_measure_usual_speed([one]) < FINE_STEPS * find_lattice(one.speed) for one in recordings)
 
 
 def _find_slot(find: Callable[[Floats, Floats], float], recordings: Sequence[Recording]) -> float:

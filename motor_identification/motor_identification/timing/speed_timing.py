@@ -21,6 +21,7 @@ from motor_identification.recording import Floats, Recording
 from motor_identification.sensor.speed_sensor import find_speed_sensor
 from motor_identification.timing.held_until import held_until
 from motor_identification.timing.pulse_slot import (
+    are_coarse,
     find_likeliest_slot,
     find_shown_slot,
     list_tick_slots,
@@ -161,7 +162,8 @@ def _find_periods(shaper: Shaper, other: Timing, least: float = -inf) -> Timing 
     of what is held for even frames.
     """
     sensors = [find_speed_sensor(recording) for recording in shaper.recordings]
-    if not _are_open(shaper.recordings) or any(sensor.step > 0.0 or sensor.frame > 0.0 for sensor in sensors):
+    counted = any(sensor.step > 0.0 or sensor.frame > 0.0 for sensor in sensors)
+    if counted or are_coarse(shaper.recordings) or not _are_open(shaper.recordings):
         return None
     instants = (OTHERS[0], OTHERS[2]) if other.is_early else (OTHERS[0],)
     found, timing = max(

@@ -115,6 +115,15 @@ def test_speeds_say_what_they_are_the_mean_of() -> None:
     assert read(replace(SPEED, unit="rpm"), [60.0, 30.0]).speed == pytest.approx([tau, pi])
 
 
+@pytest.mark.parametrize(("typical", "coarse"), [(1.0, True), (40.0, False)])
+def test_speeds_of_a_few_last_digits_are_said_to_be_too_coarse(typical: float, coarse: bool) -> None:
+    rows = np.arange(300)
+    values = np.rint(typical + 0.6 * np.maximum(typical, 1.0) * np.sin(rows / 30.0) + 0.4 * np.sin(7.0 * rows))
+    *_, said = read(SPEED, values.tolist()).findings
+    assert said.startswith("Speeds are multiples of 1 rad/s, too coarse to tell much") == coarse
+    assert said.startswith("Speeds show no counts: noise") != coarse and "is assumed (otherwise: --edges" in said
+
+
 def test_running_means_of_counts_are_taken_back_to_single_rows() -> None:
     """Whose counts share no error with each other; a window that is said stays."""
     angles = np.cumsum(np.where(np.arange(3000) < 100, 0.0, 6.3 + 4.0 * np.sin(np.arange(3000) / 70.0)))

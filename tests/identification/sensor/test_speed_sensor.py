@@ -24,6 +24,7 @@ from motor_identification.sensor.speed_sensor import (
     find_speed_sensor,
     lies_between_counts,
 )
+from motor_identification.sensor.value_lattice import are_whole_products
 
 
 @pytest.mark.parametrize(("edges", "seed"), [(96, 0), (96, 1), (960, 0), (960, 2), (2800, 0)])
@@ -202,6 +203,19 @@ def test_few_counts_belong_to_the_rows_they_were_divided_by(own: bool, stamps: i
     info = replace(log.info, sample_period=0.004, speed_window=0.004, speed_lag=0.002)
     found = find_speed_sensor(replace(log, speed=speed, sample_time=np.round(1e9 * time).astype(np.int64), info=info))
     assert (found.sigma, found.edges_per_revolution, found.lengths is not None, found.wrong) == (0.0, 28, own, 0)
+
+
+@pytest.mark.parametrize(("digit", "whole"), [(0.01, True), (0.0, False)])
+def test_printed_digits_in_rows_of_whole_milliseconds_are_no_counts_of_their_lengths(digit: float, whole: bool) -> None:
+    """Digits times milliseconds are a lattice, whatever was measured: 628,319 counts a turn were made of a robot's."""
+    random, log = np.random.default_rng(7), without_count(as_speed(recorded(3, 96)))
+    rows = random.choice([3, 4], len(log), p=(0.8, 0.2))
+    speed = 0.15 * np.sin(np.arange(len(log)) / 40.0) + 0.01 * random.standard_normal(len(log))
+    speed = digit * np.rint(speed / digit) if digit else speed
+    info = replace(log.info, sample_period=0.003, speed_window=0.003, speed_lag=0.0015)
+    found = find_speed_sensor(replace(log, speed=speed, sample_time=1_000_000 * np.cumsum(rows), info=info))
+    assert are_whole_products(speed, rows * 1e-3, 0.01 * 1e-3) == whole
+    assert (found.step, found.lengths) == (0.0, None) and found.sigma > 0.0
 
 
 def test_lengths_of_rows_matter_only_where_they_differ() -> None:

@@ -21,6 +21,7 @@ from motor_identification.sensor.description import tells_of_speeds
 from motor_identification.timing import pulse_slot, speed_timing
 from motor_identification.timing.pulse_slot import (
     SlotGain,
+    are_coarse,
     find_decay_slot,
     find_likeliest_slot,
     find_stays_slot,
@@ -158,6 +159,19 @@ def test_counts_and_what_is_held_are_explained_already(monkeypatch: pytest.Monke
     assert timing_of(check(without_count(as_speed(recorded(edges=96))))).slot == 0.0
     held = check(held_late(plain, 4, 0))
     assert timing_of(held).slot == 0.0
+
+
+@pytest.mark.parametrize(("step", "coarse"), [(0.0, False), (0.01, False), (1.0, True)])
+def test_speeds_of_a_few_steps_tell_no_slot(step: float, coarse: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A cart that logged 0, 1 and 2 had a slot of 0.000162 rad made up, and 17 times its noise floor left."""
+    plain = check(noisy(0.05))
+    slow = plain.speed / 10.0
+    log = check(replace(plain, speed=step * np.rint(slow / step) if step else slow))
+    looked: list[float] = []
+    found = pulse_slot.SlotGain(0.01, -np.inf, 0)
+    monkeypatch.setattr(speed_timing, "find_likeliest_slot", lambda *_: looked.append(0.0) or found)
+    assert are_coarse([log]) == coarse
+    assert timing_of(log).slot == 0.0 and bool(looked) != coarse
 
 
 @pytest.mark.usefixtures("unlike_lag")
