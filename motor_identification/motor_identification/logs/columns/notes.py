@@ -16,6 +16,7 @@ from motor_model.errors import RecordingError
 SHOWN = 12  # names in a question
 GREEK = words_of("alpha beta gamma delta epsilon zeta eta theta lambda phi psi omega tau sigma")
 _NUMBERS = re.compile(r"\d+")
+FEWEST_ROWS = 10  # that numbers of rows are told by
 LETTERS, FEWEST_OTHERS = 3, 3  # of a word, and columns: `x` and `w1` may be anything, and so may two columns
 
 
@@ -117,7 +118,8 @@ def miss_drive(table: Table) -> RecordingError:
 
 def lack_motion(table: Table, time: str | None) -> RecordingError:
     """Ask for the motion among columns that may be it by their names, or say that none can be."""
-    headings = [read_heading(name) for name in table.names if name not in (time, ROW_TIMES, CONSTANT)]
+    others = (name for name in table.names if name not in (time, ROW_TIMES, CONSTANT))
+    headings = [read_heading(name) for name in others if not _numbers_rows(table, name)]
     known = {Quantity.TIME, Quantity.DUTY, Quantity.SUPPLY, Quantity.CURRENT, Quantity.REFERENCE}
     if [one.quantity for one in headings if one.quantity in (Quantity.VOLTAGE, Quantity.DUTY)] == [Quantity.VOLTAGE]:
         known.add(Quantity.VOLTAGE)  # of several drives, one in volts may be a tachogenerator's
@@ -129,6 +131,11 @@ def lack_motion(table: Table, time: str | None) -> RecordingError:
         f"{table.path}: no column is the motion ({', '.join([*names[:SHOWN], *taken])}): log the motor's speed, "
         "position or count beside them, or say which column it is (--speed, --position or --count COL)."
     )
+
+
+def _numbers_rows(table: Table, name: str) -> bool:
+    """Whether a column counts the rows of a table, one after the other."""
+    return len(table) > FEWEST_ROWS and bool(np.all(np.diff(table.numbers(name)) == 1.0))
 
 
 def miss_motion(table: Table, still: str, other: str = "") -> RecordingError:

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from motor_identification.logs.columns.heading import read_heading
 from motor_identification.logs.columns.notes import (
@@ -59,6 +60,15 @@ def test_what_cannot_move_is_not_asked_about() -> None:
     assert asked("t", "command", "load").endswith("Say --speed, --position or --count and one of load.")
     assert asked("t", "pwm", "volts").endswith("one of volts.")  # may be a tachogenerator's
     assert asked("t", "volts", "target").startswith("log.csv: no column is the motion (volts is a voltage")
+
+
+@pytest.mark.parametrize(("rows", "motion"), [(11, False), (10, True)])
+def test_the_numbers_of_rows_are_no_motion(rows: int, motion: bool) -> None:
+    table = Table(
+        Path("log.csv"), np.arange(rows), {"t": np.arange(rows) * 0.1, "i mA": np.ones(rows), "Nr": np.arange(rows)}
+    )
+    assert (str(lack_motion(table, "t")).endswith("and one of Nr.")) == motion
+    assert ("no column is the motion" in str(lack_motion(table, "t"))) != motion
 
 
 def test_a_set_point_beside_columns_that_may_drive_is_told() -> None:
