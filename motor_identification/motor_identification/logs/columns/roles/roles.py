@@ -99,7 +99,10 @@ def _time_of(table: Table, headings: Sequence[Heading], said: Said) -> str | Non
         named = sorted(forward, key=lambda name: bool(since_1970(times[name]))) or named
     if named:
         return named[0]
-    unnamed = {one.name: table.numbers(one.name) for one in headings if one.quantity is None}
+    said_else = (said.voltage, said.motion)
+    unnamed = {
+        one.name: table.numbers(one.name) for one in headings if one.quantity is None and one.name not in said_else
+    }
     clock = find_clock({name: values for name, values in unnamed.items() if not _is_way(table, name, unnamed)})
     dates = _find_dates(table)
     if dates and clock and correlate(table.numbers(clock), read_clock(table, dates)) > SAME_CLOCK:

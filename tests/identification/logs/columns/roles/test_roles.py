@@ -106,6 +106,13 @@ def test_what_cannot_be_told_is_asked(columns: dict[str, str], complaint: str) -
     assert complaint in str(caught.value)
 
 
+@pytest.mark.parametrize(("said", "time"), [(Said(), "a"), (Said(voltage="a"), None), (Said(voltage="b"), "a")])
+def test_a_column_that_was_said_to_drive_is_no_clock(said: Said, time: str | None) -> None:
+    """A voltage that rises evenly all the time goes on as a clock does."""
+    log = table(a="t", b="u", speed="y")
+    assert find_roles(log, said).time == time
+
+
 def test_a_column_that_is_not_there() -> None:
     for said in (Said(time="x"), Said(voltage="x"), Said(motion="x")):
         with pytest.raises(RecordingError, match="log.csv has no column x: name one of t, u, speed"):
