@@ -45,6 +45,7 @@ def find_header(
     lines = [COMMENT.sub("", line) for line in before]
     cells = [_without_empty_end(_names(line, first, delimiter, width)) for line in lines]
     cells = [row for row in cells if not row or not all(cell in NO_VALUE for cell in row)]  # nan,nan,nan
+    cells[-2:-1] = [_name_channels(row, cells[-1], comma) for row in cells[-2:-1]]
     fit = [width <= len(row) <= most and not any(is_number(one, comma) for one in row) for row in cells]
     if len(cells) > 1 and fit[-2] and _are_units(cells[-1], cells[-2]):
         units = (unit.strip(_BRACKETS) for unit in cells[-1])
@@ -53,6 +54,14 @@ def find_header(
     found = next((row for row, fits in zip(cells[::-1], fit[::-1], strict=True) if fits), ())
     found = found or next((row for row in cells[-1:] if _holds_a_number(row, width, most, comma)), [])
     return tuple(found or next((row[:most] for row in cells[-1:] if _has_more(row, most, comma)), ()))
+
+
+def _name_channels(names: list[str], units: Sequence[str], comma: bool) -> list[str]:
+    """The names of an oscilloscope's channels that have numbers, above a line of their units: `x-axis,1,2`."""
+    known = all(unit.strip(_BRACKETS).strip().lower() in UNIT_BY_SPELLING for unit in units)
+    if not known or len(names) != len(units) or is_number(names[0], comma) or not all(map(str.isdigit, names[1:])):
+        return names
+    return [*names[:1], *(f"channel {name}" for name in names[1:])]
 
 
 def find_header_below(rows: Sequence[Sequence[str]], width: int, comma: bool) -> tuple[str, ...]:

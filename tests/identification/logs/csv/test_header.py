@@ -24,6 +24,9 @@ UNITS = "        ms    degrés    degrés     Volts        mA     rad/s     rad/
         (("count;rpm;deg;ms;V",), ("count", "rpm", "deg", "ms", "V")),  # units alone, which are the names
         (("a;b;c;d;e", "t;ref;pos;u;y"), ("t", "ref", "pos", "u", "y")),  # no units: the last line
         (("1;2;3;4;5", "ms;deg;deg;V;V"), ("ms", "deg", "deg", "V", "V")),  # numbers are no names
+        (("x-axis;1;2;3;4", "second;Volt;Volt;Volt;Volt"),  # an oscilloscope's channels
+         ("x-axis [second]", "channel 1 [Volt]", "channel 2 [Volt]", "channel 3 [Volt]", "channel 4 [Volt]")),
+        (("x-axis;1;2;3;4", "second;a;b;c;d"), ("second", "a", "b", "c", "d")),
         (("1;2;3;4;5",), ()),
         (("Time;Position;Delta;366;Velocity",), ("Time", "Position", "Delta", "366", "Velocity")),  # a sheet's cell
         (("t;u;y;v;w", "Kp;of;the;loop;2"), ("t", "u", "y", "v", "w")),
