@@ -87,7 +87,8 @@ def test_names_of_columns_may_be_numbers() -> None:
     """As an oscilloscope writes them: its channels, and then their units."""
     rows = [f"{k / 1e3},{0.012 * k},{0.6 + k}" for k in range(8)]
     found = find_dialect(["x-axis,1,2", "second,Volt,Volt", *rows])
-    assert found is not None and (found.first_row, found.header) == (2, ("second", "Volt", "Volt"))
+    channels = ("x-axis [second]", "channel 1 [Volt]", "channel 2 [Volt]")
+    assert found is not None and (found.first_row, found.header) == (2, channels)
     single = find_dialect(["x-axis,1,2", *rows])
     assert single is not None and single.first_row == 1
     words = find_dialect([f"{k},run,{k}" for k in range(8)])  # a column of words
