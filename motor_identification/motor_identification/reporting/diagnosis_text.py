@@ -28,7 +28,7 @@ NO_MOTOR = (
     "voltage and motion, and their units."
 )
 SEEN = (
-    "The command changes too seldom to hold any of it out: this gap is of the motion that was fitted; --validate BAG "
+    "The command swings too seldom to hold any of it out: this gap is of the motion that was fitted; --validate BAG "
     "tests it on another."
 )
 OF_SENSOR = "the speeds were smoothed or late before they were logged"
