@@ -82,6 +82,25 @@ def test_what_does_as_well_beside_the_torque_that_is_left_is_a_rival(
     assert left.steps == (replace(selection.steps[0], rivals=rivals),) and left.model is selection.model
 
 
+@pytest.mark.parametrize(("times", "rivals"), [(BELOW, ("coulomb_friction",)), (ABOVE, ())])
+def test_what_leaves_more_than_its_torque_does_is_no_rival(
+    monkeypatch: pytest.MonkeyPatch, times: float, rivals: tuple[str, ...]
+) -> None:
+    """A drag was as likely as a real motor's breakaway, beside a torque that left two and a half times as much."""
+    before = stub_model(9.0)
+    other = stub_model(2.0 * times * thresholds.WORSE_GAP, likelihood=0.0)
+    found, known = stub_test("dead_zone", before, 5.0, 900.0), stub_test("coulomb_friction", before, 5.0, 600.0)
+    selection = stub_selection(2.0, SelectionStep(before, found, (found, known), (), 0.99))
+    begun = replace(selection, model=with_effects(stub_model(2.0, likelihood=0.0), "dead_zone"))
+    without = with_effects(stub_model(8.0, likelihood=-2.0 * thresholds.TIE_LIKELIHOOD))
+    monkeypatch.setattr(module, "begin_beside_torque", lambda *_: begun)
+    monkeypatch.setattr(module, "refit_without", lambda model, *_: without if model is begun.model else 0)
+    monkeypatch.setattr(
+        module, "try_effects", lambda model, hold_out, names, *_: [CandidateTest(name, model, other) for name in names]
+    )
+    assert [step.rivals for step in check_beside_torque(selection, SILENT).steps] == [rivals]
+
+
 @pytest.mark.parametrize(
     ("times", "kept"), [(BELOW, ("coulomb_friction",)), (ABOVE, ("coulomb_friction", "dead_zone"))]
 )
