@@ -59,7 +59,8 @@ def find_header(
 def _name_channels(names: list[str], units: Sequence[str], comma: bool) -> list[str]:
     """The names of an oscilloscope's channels that have numbers, above a line of their units: `x-axis,1,2`."""
     known = all(unit.strip(_BRACKETS).strip().lower() in UNIT_BY_SPELLING for unit in units)
-    if not known or len(names) != len(units) or is_number(names[0], comma) or not all(map(str.isdigit, names[1:])):
+    numbered = len(names) > 1 and not is_number(names[0], comma) and all(map(str.isdigit, names[1:]))
+    if not (known and numbered and len(names) == len(units)):
         return names
     return [*names[:1], *(f"channel {name}" for name in names[1:])]
 

@@ -27,6 +27,7 @@ UNITS = "        ms    degrés    degrés     Volts        mA     rad/s     rad/
         (("x-axis;1;2;3;4", "second;Volt;Volt;Volt;Volt"),  # an oscilloscope's channels
          ("x-axis [second]", "channel 1 [Volt]", "channel 2 [Volt]", "channel 3 [Volt]", "channel 4 [Volt]")),
         (("x-axis;1;2;3;4", "second;a;b;c;d"), ("second", "a", "b", "c", "d")),
+        (("t;u;y;v;w", '""', '""'), ("t", "u", "y", "v", "w")),  # lines without anything
         (("1;2;3;4;5",), ()),
         (("Time;Position;Delta;366;Velocity",), ("Time", "Position", "Delta", "366", "Velocity")),  # a sheet's cell
         (("t;u;y;v;w", "Kp;of;the;loop;2"), ("t", "u", "y", "v", "w")),
