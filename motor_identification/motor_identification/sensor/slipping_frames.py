@@ -40,7 +40,8 @@ def find_slipping_frames(
         return None
     if np.median(change) < MANY * min(different[0], float(np.min(np.diff(different)))):
         return None
-    period = float(np.mean(gaps[one]))
+    near = np.mean(gaps[one])  # of a guess that is a row short, the frames that took a row more are no others
+    period = float(np.mean(gaps[np.abs(gaps - near) < 1.5 * row]))
     number = np.concatenate([[0.0], np.maximum(np.rint(gaps / period), 1.0).cumsum()])
     slip = time[changed] - number * period
     local = np.median(sliding_window_view(np.pad(slip, AROUND // 2, mode="edge"), AROUND), axis=1)

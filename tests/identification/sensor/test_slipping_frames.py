@@ -39,6 +39,17 @@ def test_frames_without_an_even_grid(count: float) -> None:
     assert frames.time[0] < 0.03 and np.all(np.diff(frames.time) > 0.0)  # a standing motor has frames, too
 
 
+@pytest.mark.parametrize("guess", [4, 5])
+def test_a_guess_that_is_a_row_short_finds_the_same_frames(guess: int) -> None:
+    """Frames of 5 rows that jitter by one now and then: of 0.2 ms rows a period of 0.983 ms was made, for 1.01 ms."""
+    rows = np.tile([5] * 8 + [4, 6] + [5] * 8 + [6, 4], 40)
+    changed = np.cumsum(rows)
+    time = ROW * np.arange(changed[-1] + 5)
+    values = np.repeat(angle(ROW * np.append(0, changed)), np.append(changed[0], np.append(rows[1:], 5)))
+    frames = find_slipping_frames(time, values, np.flatnonzero(np.diff(values)) + 1, guess * ROW)
+    assert frames is not None and frames[2] == pytest.approx(5.0 * ROW, rel=1e-3)
+
+
 def test_one_count_at_a_time_is_not_held() -> None:
     """A coarse encoder on a motor that turns evenly repeats its count as regularly, and slips as well."""
     time = np.arange(0.0, 8.0, ROW)
