@@ -24,6 +24,7 @@ from motor_identification.logs.rows.speed_sign import give_signs
 from motor_identification.logs.rows.swapped_sign import turn_round
 from motor_identification.logs.rows.wraps import unwrap
 from motor_identification.logs.signals import Floats, Integers, Signals
+from motor_identification.sensor.held_samples import find_frames
 from motor_identification.sensor.pulses.timer_ticks import are_over_slots
 from motor_identification.sensor.running_mean import find_running_mean, size_of_count, take_single_rows
 from motor_identification.sensor.speed_sensor import are_smoothed, find_noise
@@ -184,9 +185,11 @@ def _about_count(form: CsvForm, signals: Signals, edges: int, window: float) -> 
         return f"One count ({edges} per revolution) within the window is {size:.4g} {form.unit}."
     step, noise, _ = find_noise(signals.motion * unit, signals.voltage, window)
     if step > 0.0:
-        counts = tau / (step * window) / float(form.gear)
+        frame = 0.0 if form.speed_window else _measure_frame(signals)
+        counts = tau / (step * (frame or window)) / float(form.gear)
+        new, within = (f", a new one every {frame * 1e3:.4g} ms", "that") if frame else ("", "the window")
         return (
-            f"Values are multiples of {step / unit:.4g} {form.unit}: one count within the window if the encoder has "
+            f"Values are multiples of {step / unit:.4g} {form.unit}{new}: one count within {within} if the encoder has "
             f"{counts:.5g} per revolution (assumed; otherwise: --edges-per-revolution)."
         )
     coarse = find_lattice(signals.motion)
@@ -197,6 +200,14 @@ def _about_count(form: CsvForm, signals: Signals, edges: int, window: float) -> 
         f"{said}: noise of {noise / unit:.2g} {form.unit}, as between neighbours, is assumed "
         "(otherwise: --edges-per-revolution)."
     )
+
+
+def _measure_frame(signals: Signals) -> float:
+    """Measure for how long [s] the longest run's speeds are held, as whoever reads the bag sees; 0 where none is."""
+    run = max(signals.runs.values(), key=lambda run: run.stop - run.start)
+    time: Floats = (signals.time[run] - signals.time[run.start]) * 1e-9
+    frames = find_frames(time, signals.motion[run])
+    return frames.period if frames else 0.0
 
 
 def _confirm_edges(form: CsvForm, signals: Signals, edges: int, count: float, window: float) -> tuple[int, list[str]]:

@@ -124,6 +124,17 @@ def test_speeds_of_a_few_last_digits_are_said_to_be_too_coarse(typical: float, c
     assert said.startswith("Speeds show no counts: noise") != coarse and "is assumed (otherwise: --edges" in said
 
 
+@pytest.mark.parametrize(("rows", "window"), [(1, None), (5, None), (5, 0.02)])
+def test_counts_are_those_of_the_time_for_which_a_value_is_held(rows: int, window: float | None) -> None:
+    """A bus of 1 ms in rows of 0.2 ms said 40,960 counts a turn here, and 8,192 in a diagnosis."""
+    counts = np.rint(30.0 + 25.0 * np.sin(np.arange(200) / 9.0) + 3.0 * np.sin(np.arange(200) * 2.3))
+    values = np.repeat(counts * tau / 96 / (0.02 * rows), rows)
+    *_, said = read(replace(SPEED, speed_window=window), values.tolist()).findings
+    held = rows > 1 and window is None
+    assert f"if the encoder has {96 if held or rows == 1 else 96 * rows} per revolution (assumed" in said
+    assert ("a new one every 100 ms: one count within that if" in said) == held
+
+
 def test_running_means_of_counts_are_taken_back_to_single_rows() -> None:
     """Whose counts share no error with each other; a window that is said stays."""
     angles = np.cumsum(np.where(np.arange(3000) < 100, 0.0, 6.3 + 4.0 * np.sin(np.arange(3000) / 70.0)))
