@@ -25,12 +25,22 @@ def test_plots_are_columns_and_their_times_are_one() -> None:
     assert _names("Amostra - Vel", "Amplitude - Vel", "Amostra - Esf", "Amplitude - Esf") == ["Amostra", "Vel", "Esf"]
 
 
+@pytest.mark.parametrize("axis", ["R (mm) ", ""])
+def test_values_have_the_name_of_the_axis_that_they_share(axis: str) -> None:
+    """Of a French servo's 40 columns `R (mm) - uT : tension moteur T (V)` was a position in millimetres."""
+    plots = ("x : position (mm)", "u : tension moteur (V)")
+    given = [f"{one}- {plot}" for plot in plots for one in ("Temps (s) ", axis)]
+    assert _names(*given) == ["Temps (s)", *plots]
+
+
 @pytest.mark.parametrize(
     "names",
     [
         ("Time - Speed", "Amplitude - Voltage"),
         ("Time - Speed", "Amplitude - Speed", "Temperature"),
         ("left - speed", "right - speed"),
+        ("left - speed", "right - speed", "left - pwm", "right - pwm"),  # two motors
+        ("t (s) - x : position", "R (mm) - x : position"),  # of one plot nobody knows
         ("Time - Speed", "Amplitude - Speed", "Time - Speed #3", "Amplitude - Speed"),
         ("t", "u", "y", "z"),
     ],
