@@ -71,6 +71,7 @@ class Gate:
     timeout: float  # [s] after which a command is stale
     sample_period: float = 0.0  # [s] of the plant; 0: not known
     since: int = 0  # [ns] the plant came up, or its board did
+    switched: int = 0  # [ns] the user switched the output: no voltage that was sent before acts
     stopped: str = ""  # why the output was switched off; empty: by the user, or never
     faults: RepeatedStops = RepeatedStops()  # stops for what the motor did
     begun: bool = False  # the voltages have started from 0 V, or were allowed by motor/enable
@@ -87,28 +88,38 @@ class Gate:
     calls: int = 0  # to switch on what was on, one soon after the other
     called: int = 0  # [ns] the latest call to switch on
 
-    def take(self, voltage: float, now: int, name: str = "", number: int | None = None, waited: int = 0) -> "Gate":
+    def take(
+        self,
+        voltage: float,
+        now: int,
+        name: str = "",
+        number: int | None = None,
+        waited: int = 0,
+        sent: int | None = None,
+    ) -> "Gate":
         """A command [V] of a sender is taken at `now` [ns]; one that is not a number stops the motor.
 
         `name` is the message's frame_id, `number` how many messages its publisher has sent, None if unknown; `waited`
-        [ns] how long ago it was received: a plant that is held up takes it late, and it is as old as it is.
+        [ns] how long ago it was received: a plant that is held up takes it late, and it is as old as it is. `sent` [ns]
+        is when it was sent, if known: what was on its way when the output was switched does not act.
         """
         if not isfinite(voltage):
             return replace(self, command=0.0, received=None, refused=self.refused + 1)
-        holder = self.sender
+        holder, what = self.sender, (voltage, now, name, number, waited, sent)
         ours = holder is not None and holder.sent(name, number, now) and not self._goes_on(name, number, now)
         if holder is not None and now - holder.at <= HOLD and not ours:
             return replace(self, aside=Sender(name, number, now))
         unheard = holder is not None and self._goes_on_unheard(holder, ours, number, now)
         if holder is not None and unheard and not ours:
-            return replace(self.come_up(holder.at), sender=None, away=True).take(voltage, now, name, number, waited)
+            return replace(self.come_up(holder.at), sender=None, away=True).take(*what)
         told = self._tell_senders(number, now) if ours else replace(self, aside=None)
         sender = holder.after(number, now) if holder is not None and ours else Sender(name, number, now)
         first = self.first if ours and self.first is not None else sender
         handed = voltage != 0.0 and (self.handed or (not ours and self.conflict(now)))
         begun = self.begun or voltage == 0.0 or _began(first, number, now, self.since, self.sample_period * 1e9)
         begun = begun and not handed
-        told = replace(told, command=voltage, received=now - waited, sender=sender, first=first, handed=handed)
+        received = now - waited if sent is None or sent >= self.switched else None
+        told = replace(told, command=voltage, received=received, sender=sender, first=first, handed=handed)
         if voltage != 0.0 and (unheard or waited > max(AWAY, self.timeout * 1e9)):  # it began before, whatever its pace
             return replace(told, first=replace(first, number=None), begun=False, away=True)
         return replace(told, begun=begun)
@@ -139,9 +150,10 @@ class Gate:
             return replace(self, aside=None)
         return replace(self, aside=None, rival=aside.name, rival_at=now)
 
-    def enable(self, on: bool) -> "Gate":
-        """Switch the output, by the user's will; a command from before the switch never acts."""
-        return replace(self, enabled=on, begun=on, handed=False, away=False, stopped="", command=0.0, received=None)
+    def enable(self, on: bool, now: int = 0) -> "Gate":
+        """Switch the output at `now` [ns], by the user's will; a command from before the switch never acts."""
+        on_from = replace(self, enabled=on, switched=max(self.switched, now), begun=on, handed=False, away=False)
+        return replace(on_from, stopped="", command=0.0, received=None)
 
     def stop(self, why: str) -> "Gate":
         """Switch the output off for a reason, until the user switches it on."""

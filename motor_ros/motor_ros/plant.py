@@ -170,7 +170,8 @@ class Plant:
         if self._is_old(message, now):
             self._node.get_logger().error(self._old, throttle_duration_sec=1.0)
             return
-        self.gate = before.take(voltage, arrival.at, message.header.frame_id, arrival.number, arrival.waited)
+        name, number = message.header.frame_id, arrival.number
+        self.gate = before.take(voltage, arrival.at, name, number, arrival.waited, arrival.sent)
         if self.gate.refused > before.refused:
             self._node.get_logger().error(
                 f"{voltage} on motor/voltage is not a number: the motor gets 0 V.", throttle_duration_sec=1.0
@@ -202,7 +203,7 @@ class Plant:
         if not request.data:
             self._enabling.refuse_waiting(JUST_NOW.format("it was switched off by motor/enable"))
         self._input.forget()  # nor does a command from before the switch act that waits for its sender to be known
-        self.gate = self.gate.enable(request.data)
+        self.gate = self.gate.enable(request.data, now)
         self._changed()
         response.success = True
         response.message = "The output is on." if request.data else OFF

@@ -70,6 +70,27 @@ def test_a_voltage_from_before_a_switch_does_not_act_after_it(
     assert plant.voltage() == volts
 
 
+@pytest.mark.parametrize(("sent", "volts"), [("before", 0.0), ("between", 0.0), ("after", 6.0)])
+def test_a_voltage_that_was_on_its_way_when_the_motor_was_switched_does_not_act(
+    bench: Bench, sent: str, volts: float
+) -> None:
+    """Switched off and on at once, a motor ran on at the voltage that came after that: in 29 of 31 tries."""
+    plant = Plant(bench.node, Info(), Gate(True, 10.0))
+    plant._input._commanders = None  # it is known who sends
+    stamps = {"before": time.time_ns()}
+    assert asked(plant, False)[0]
+    stamps["between"] = time.time_ns()
+    assert asked(plant, True)[0]
+    stamps["after"] = time.time_ns()
+    about = {"received_timestamp": time.time_ns(), "source_timestamp": stamps[sent], "publication_sequence_number": 7}
+    plant._input._on_message(MotorVoltage(voltage=6.0), about)
+    now = time.monotonic_ns()
+    assert plant.gate.voltage(now) == volts
+    about |= {"source_timestamp": time.time_ns(), "publication_sequence_number": 8}
+    plant._input._on_message(MotorVoltage(voltage=5.0), about)
+    assert plant.gate.voltage(now) == 5.0  # its sender goes on, and is the same
+
+
 def test_a_motor_that_stops_again_and_again_is_switched_on_later_and_later(bench: Bench) -> None:
     """A supervisor that answered every stop got the motor each time."""
     plant = Plant(bench.node, Info(), Gate(True, 0.1))
