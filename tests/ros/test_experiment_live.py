@@ -1,8 +1,10 @@
 """However a live experiment ends, the motor gets 0 V at once: here the plant would go on for ten seconds by itself."""
 
 import resource
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 import workbench
@@ -14,6 +16,7 @@ from workbench import DOMAIN, PATIENCE, Bench
 from motor_identification.bag import BagWriter, contents, read_recording
 from motor_identification.live import run_plan, speed_probe
 from motor_identification.live.experiment_node import Driver
+from motor_identification.live.recorder import Recorder
 from motor_identification.live.run_plan import drive
 from motor_model.errors import MotorError
 from motor_model.excitation import profile
@@ -185,29 +188,58 @@ def test_an_interrupt_of_the_ramp_leaves_no_bag(stand: Stand) -> None:
     assert not stand.bag.exists()
 
 
-@pytest.mark.parametrize("off", [3600.0, -3600.0])
-def test_a_clock_that_is_not_the_plants_holds_nothing_up(
-    stand: Stand, monkeypatch: pytest.MonkeyPatch, off: float
-) -> None:
-    """With a plant under use_sim_time, or after the clock was set back, it waited for ever, and said nothing."""
-    true = Driver.get_clock
+@pytest.fixture(params=[3600.0, -3600.0])
+def another_clock(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The experiment's clock is by so many seconds not the plant's."""
+    true, off = Driver.get_clock, Duration(nanoseconds=round(request.param * 1e9))
 
-    class Ahead:
+    class Off:
         def __init__(self, driver: Driver) -> None:
             self._clock = true(driver)
 
         def now(self) -> Time:
-            return self._clock.now() + Duration(nanoseconds=round(off * 1e9))
+            return self._clock.now() + off
 
         def __getattr__(self, name: str) -> object:
             return getattr(self._clock, name)
 
-    monkeypatch.setattr(Driver, "get_clock", lambda driver: Ahead(driver))
+    monkeypatch.setattr(Driver, "get_clock", lambda driver: Off(driver))
+
+
+@pytest.mark.usefixtures("another_clock")
+def test_a_clock_that_is_not_the_plants_holds_nothing_up(stand: Stand) -> None:
+    """With a plant under use_sim_time, or after the clock was set back, it waited for ever, and said nothing."""
     end = stand.bench.node.get_clock().now() + Duration(seconds=PATIENCE)
     assert stand.experiment("step", lambda driver: stand.bench.node.get_clock().now() > end) == 0
     stand.assert_stopped()
     # The step is 1.1 s; half a second of samples from before may stand before it, and more where the machine is busy.
-    assert 0.8 < stand.recorded() < 5.0  # who goes by the wrong clock ends at once, or is interrupted above
+    assert 1.0 < stand.recorded() < 5.0  # who goes by the wrong clock ends at once, or is interrupted above
+
+
+@pytest.mark.usefixtures("another_clock")
+def test_samples_that_waited_while_the_recorder_was_made_are_no_part_of_the_plan(
+    stand: Stand, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """On a busy machine a step began with them, so that its first half second was neither driven nor in the bag."""
+    monkeypatch.setattr(run_plan, "announce", lambda *_: time.sleep(0.6) or "as many samples as are kept have come")
+    assert stand.experiment("step") == 0
+    stand.assert_stopped()
+    driven = int((read_recording(stand.bag).voltage > 0.0).sum())
+    assert 150 < driven < 250  # samples: the step takes a second
+
+
+def test_a_recorder_that_is_made_slowly_is_no_silence_of_the_plant(
+    stand: Stand, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """On a busy machine "the samples stopped after 0.00 s", which nobody had looked at for a second."""
+
+    def record(*arguments: Any) -> Recorder:
+        time.sleep(1.1)
+        return Recorder(*arguments)
+
+    monkeypatch.setattr(run_plan, "Recorder", record)
+    assert stand.experiment("step") == 0
+    stand.assert_stopped()
 
 
 def test_another_plant_and_another_voltage(stand: Stand) -> None:

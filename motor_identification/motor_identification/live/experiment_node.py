@@ -53,12 +53,15 @@ class Driver(Node):
         self.plant_says = ""  # what the plant's diagnostics said since its output is off
         self._voltage = self.create_publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
         self.create_subscription(MotorInfo, "motor/info", self._on_info, qos.INFO)
-        self.create_subscription(MotorSpeed, "motor/speed", self._on_sample, qos.SPEED)
+        self._samples = self.create_subscription(MotorSpeed, "motor/speed", self._on_sample, qos.SPEED)
         self.create_subscription(MotorVoltage, "motor/voltage", self._on_voltage, qos.VOLTAGE)
         self.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, qos.DIAGNOSTICS)
 
     def follow(self, plan: Plan, enough: float | None = None) -> None:
         """Do what a plan says from now on; with `enough` it is a probe, kept in `samples`, that ends at that speed."""
+        for _ in range(qos.SPEED.depth):  # what has waited is of before, whatever its stamps say: nobody may record it
+            if not self._samples.handle.take_message(MotorSpeed, False):
+                break
         self._following, self._enough, self.samples = plan, enough, []
         self._ready, self._start, self.done, self.elapsed = self.get_clock().now(), None, False, 0.0
         self.heard = self._since = time.monotonic()  # nobody has listened while something else was done

@@ -152,6 +152,7 @@ def _follow(node: Driver, interrupt: Interrupt, recorder: Recorder) -> None:
     def failed() -> bool:
         return bool(interrupt or recorder.refusal) or node.failed()
 
+    node.heard = time.monotonic()  # nobody has listened while the recorder was made
     spin(node, lambda: recorder.counts[speed] > 0 or failed())
     if node.plan is None or failed():
         return
