@@ -191,14 +191,26 @@ def test_a_board_that_was_held_up_does_not_say_afterwards_what_was_before_a_clie
         return look()
 
     monkeypatch.setattr(live._port, "opened", opened)
-    held.wait(PATIENCE)
-    behind = live.truth()
-    while time.monotonic_ns() < behind.start + (behind.cycle / behind.rate) + 30_000_000:
-        time.sleep(0.001)
-    late, now = connect(), time.monotonic_ns()
-    hold.set()
-    heard = first_heard_by(late)
-    assert 8 * heard > (now - behind.start) * behind.rate - behind.clock_zero - 3 * 8 * 2_000
+
+    def come_late() -> tuple[float, int]:
+        """How much later [cycle] than a client comes its first sample is, and how often the board's time stood still."""
+        hold.clear()
+        held.clear()
+        assert held.wait(PATIENCE)
+        behind = live.truth()
+        while time.monotonic_ns() < behind.start + (behind.cycle / behind.rate) + 30_000_000:
+            time.sleep(0.001)
+        late, now = connect(), time.monotonic_ns()
+        hold.set()
+        heard = first_heard_by(late)
+        stood_still = live.truth().held_up - behind.held_up
+        leave(late, live)
+        return 8 * heard - ((now - behind.start) * behind.rate - behind.clock_zero), stood_still
+
+    later, stood_still = come_late()
+    while stood_still:  # for a machine that held this up for 10 ms more: its samples' times are no longer those
+        later, stood_still = come_late()
+    assert later > -3 * 8 * 2_000
 
 
 def test_the_truth_says_when_a_sample_was(connect: Connect, live: LiveBoard) -> None:
