@@ -21,23 +21,27 @@ case "$ROS_AUTOMATIC_DISCOVERY_RANGE" in
   *) _motor_profile=loopback.xml ;;
 esac
 case "${FASTRTPS_DEFAULT_PROFILES_FILE:-loopback.xml}" in
-  *loopback.xml | *quick_discovery.xml) ;;
+  loopback.xml | */loopback.xml | quick_discovery.xml | */quick_discovery.xml) ;;
   *)
     # Fast DDS would go on, open, without a file and with another program's
-    if [ ! -f "$FASTRTPS_DEFAULT_PROFILES_FILE" ] || ! grep -Eq '<(dds|profiles)([[:space:]/>]|$)' "$FASTRTPS_DEFAULT_PROFILES_FILE"; then
+    if ! "$_motor_root/.venv/bin/python" -I -c '
+import sys
+sys.path[:0] = sys.argv[2:]
+from motor_ros.loopback import is_profile
+sys.exit(not is_profile(sys.argv[1]))' "$FASTRTPS_DEFAULT_PROFILES_FILE" "$_motor_root/motor_ros" "$_motor_root/motor_model"; then
       echo "FASTRTPS_DEFAULT_PROFILES_FILE is $FASTRTPS_DEFAULT_PROFILES_FILE, which cannot be read as a profile: the workbench's own $_motor_profile is used. Correct it, or unset it." >&2
       unset FASTRTPS_DEFAULT_PROFILES_FILE
     fi
     ;;
 esac
 case "${FASTRTPS_DEFAULT_PROFILES_FILE:-loopback.xml}" in
-  *loopback.xml | *quick_discovery.xml)
+  loopback.xml | */loopback.xml | quick_discovery.xml | */quick_discovery.xml)
     export FASTRTPS_DEFAULT_PROFILES_FILE="$_motor_root/motor_ros/motor_ros/$_motor_profile"
     ;;
   *) echo "FASTRTPS_DEFAULT_PROFILES_FILE is your own: it decides who can reach the motors, the workbench's loopback.xml is not used." >&2 ;;
 esac
 case "$FASTRTPS_DEFAULT_PROFILES_FILE" in
-  *loopback.xml)
+  */loopback.xml)
     for _motor_name in ROS_STATIC_PEERS ROS_DISCOVERY_SERVER; do # those would be told of our nodes, whatever the range
       [ -z "${!_motor_name:-}" ] || echo "$_motor_name is set and not used, for nodes stay on this machine: export ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET to open it." >&2
       unset "$_motor_name"

@@ -48,7 +48,7 @@ def stay_on_this_machine(environment: MutableMapping[str, str] = os.environ) -> 
     ours = CLOSED if environment[RANGE] not in _OPENED else OPEN
     theirs = environment.get(PROFILE) or str(ours)
     named = Path(theirs).name in (CLOSED.name, OPEN.name)
-    lost = not named and not _is_profile(theirs)
+    lost = not named and not is_profile(theirs)
     environment[PROFILE] = str(ours) if named or lost else theirs
     said = [_find_other_middleware(environment)] + [LOST.format(PROFILE, theirs, ours.name)] * lost
     if environment[PROFILE] == str(OPEN):
@@ -59,15 +59,20 @@ def stay_on_this_machine(environment: MutableMapping[str, str] = os.environ) -> 
     return " ".join(filter(None, said))
 
 
-def _is_profile(path: str) -> bool:
-    """Tell whether a file can be read, and is XML of Fast DDS; what else is wrong with a profile is its owner's."""
-    parser, tags = ParserCreate(), list[str]()
+def is_profile(path: str) -> bool:
+    """Tell whether a file can be read, and is XML of Fast DDS; what else is wrong with a profile is its owner's.
+
+    Fast DDS reads bytes, no UTF-16, and knows no entities that a file declares.
+    """
+    parser, tags, unknown = ParserCreate(), list[str](), list[str]()
     parser.StartElementHandler = lambda tag, _: tags.append(tag)
+    parser.EntityDeclHandler = lambda name, *_: unknown.append(name)
     try:
-        parser.Parse(regular_file.read_bytes(path, MOST), True)
-    except (OSError, MotorError, ExpatError):
+        data = regular_file.read_bytes(path, MOST)
+        parser.Parse(data, True)
+    except (OSError, MotorError, ExpatError, ValueError):
         return False
-    return tags[0] in ROOTS
+    return tags[0] in ROOTS and not unknown and b"\0" not in data
 
 
 def _find_other_middleware(environment: MutableMapping[str, str]) -> str:

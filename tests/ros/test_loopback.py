@@ -93,15 +93,21 @@ def test_a_profile_that_is_no_xml_is_not_used(tmp_path: Path) -> None:
         ('<dds\txmlns="http://www.eprosima.com"/>', True),
         ('<f:profiles xmlns:f="http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles"/>', False),
         ('<f:dds xmlns:f="http://www.eprosima.com"/>', False),
+        ("<!-- <profiles> --><CycloneDDS/>", False),
+        ("<CycloneDDS><![CDATA[ <profiles> ]]></CycloneDDS>", False),
+        ("<!-- <CycloneDDS> --><dds/>", True),
+        ('<!DOCTYPE dds [<!ENTITY all "<profiles/>">]><dds>&all;</dds>', False),
+        ("<!DOCTYPE dds [<!ELEMENT dds ANY>]><dds/>", True),
+        ('<?xml version="1.0" encoding="UTF-16"?><dds/>', False),
     ],
 )
 def test_a_file_of_another_program_is_no_profile(tmp_path: Path, text: str, used: bool) -> None:
     """Fast DDS goes on without Cyclone DDS's configuration as well, on 0.0.0.0; its own are left as they are.
 
-    It knows its elements by their bare names alone; after those may be any white space.
+    It knows its elements by their bare names alone; after those may be any white space. A comment names none.
     """
     named = tmp_path / "own.xml"
-    named.write_text(text)
+    named.write_text(text, "utf-16" if "UTF-16" in text else "utf-8")
     ours = {PROFILE: str(named)}
     assert (f"{named}, which cannot be read" not in stay_on_this_machine(ours)) is used
     assert ours[PROFILE] == str(named if used else CLOSED)

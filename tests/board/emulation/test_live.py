@@ -193,7 +193,7 @@ def test_a_board_that_was_held_up_does_not_say_afterwards_what_was_before_a_clie
     monkeypatch.setattr(live._port, "opened", opened)
 
     def come_late() -> tuple[float, int]:
-        """How much later [cycle] than a client comes its first sample is, and how often the board's time stood still."""
+        """How much later [cycle] than a client its first sample is, and how often the board's time stood still."""
         hold.clear()
         held.clear()
         assert held.wait(PATIENCE)
