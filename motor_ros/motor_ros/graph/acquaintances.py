@@ -6,6 +6,9 @@ enough to be recognised as a player. One that was sent while a player was there,
 is not obeyed: nobody can tell whose it was. Nor is a request that was sent while somebody was there who has ended
 before it was known for long enough, for who asks waits for the answer; who publishes once may end at once.
 
+Who is told of only after a message has come, has not sent it: a message waits for no newcomers of later, which would be
+for ever beside nodes that come and go. A request waits for all of them, for it may come before its sender is listed.
+
 Times are ns on a clock that is never set.
 """
 
@@ -19,6 +22,7 @@ from motor_ros.graph.publishers import Id, Publisher
 # announced within a few ms of its publishers; a tenth of a second was seen on a busy computer.
 SETTLED = 200_000_000
 WATCHED = 10_000_000_000  # [ns] for which its services are looked at all the same
+LISTED = 100_000_000  # [ns] after a message by which its publisher is listed: it is before, on a computer that has time
 PATIENCE = 2_000_000_000  # [ns] for which a message waits: what comes later than that is no answer to anybody any more
 
 
@@ -34,6 +38,7 @@ class Verdict(Enum):
 class Acquaintances:
     """Who publishes some topics, since when their nodes are known, and who of them plays a recording."""
 
+    listed: dict[Id, int] = field(default_factory=dict)  # [ns] since when each is, whether or not it is known
     known: dict[Id, int] = field(default_factory=dict)  # [ns] since when
     unknown: frozenset[Id] = frozenset()
     players: str = ""  # their nodes' names
@@ -45,6 +50,7 @@ class Acquaintances:
     def look(self, publishers: Iterable[Publisher], players: Set[str], now: int) -> "Acquaintances":
         """See at `now` who publishes; players: names of all nodes that play recordings."""
         there = list(publishers)
+        listed = {one.id: self.listed.get(one.id, now) for one in there}
         known = {one.id: self.known.get(one.id, now) for one in there if one.node}
         unknown = frozenset(one.id for one in there if not one.node)
         playing = ", ".join(sorted({one.node for one in there if one.node in players}))
@@ -54,7 +60,7 @@ class Acquaintances:
         came = known.keys() - self.known.keys()
         doubted = now if playing or self.players or left else self.doubted  # who has just gone may have sent before
         newest = now if came else self.newest
-        return Acquaintances(known, unknown, playing, doubted, newest, now, self.awaited)
+        return Acquaintances(listed, known, unknown, playing, doubted, newest, now, self.awaited)
 
     def watches(self, now: int) -> bool:
         """Whether somebody may still turn out to be a player."""
@@ -64,6 +70,7 @@ class Acquaintances:
         """Judge at `now` a message that came at `at`."""
         if self.players or (self.doubted is not None and self.doubted >= at):
             return Verdict.REFUSED
-        if not self.unknown and all(now - since >= SETTLED for since in self.known.values()):
+        senders = [one for one, since in self.listed.items() if self.awaited or since <= at + LISTED]
+        if all(one in self.known and now - self.known[one] >= SETTLED for one in senders):
             return Verdict.OBEYED
         return Verdict.WAITS if now - at <= PATIENCE else Verdict.REFUSED

@@ -2,7 +2,7 @@
 
 import pytest
 
-from motor_ros.graph.acquaintances import PATIENCE, SETTLED, WATCHED, Acquaintances, Verdict
+from motor_ros.graph.acquaintances import LISTED, PATIENCE, SETTLED, WATCHED, Acquaintances, Verdict
 from motor_ros.graph.publishers import Publisher
 
 USER, PLAYER = Publisher((1,), "/user"), Publisher((2,), "/x")
@@ -30,6 +30,24 @@ def test_one_whose_node_is_not_known_lets_everybody_wait_and_at_last_be_refused(
     known = two.look((USER, PLAYER), set(), at + 5)
     assert known.judge(at, at + 5) is WAITS
     assert known.judge(at, at + 5 + SETTLED) is OBEYED
+
+
+@pytest.mark.parametrize(("later", "verdict"), [(LISTED, WAITS), (LISTED + 1, OBEYED)])
+@pytest.mark.parametrize("newcomer", [PLAYER, NAMELESS])
+def test_a_message_waits_for_no_newcomer_of_later(newcomer: Publisher, later: int, verdict: Verdict) -> None:
+    """Beside ten nodes a second that come and go, nine of ten references were refused after 2 s."""
+    at = 10 * SETTLED
+    two = met(USER).look((USER, newcomer), set(), at + later)
+    assert two.judge(at, at + later) is verdict
+    assert two.judge(at + later, at + later) is WAITS  # what has come since may be the newcomer's
+
+
+@pytest.mark.parametrize("later", [LISTED + 1, PATIENCE])
+def test_a_request_waits_for_every_newcomer(later: int) -> None:
+    """It may come before its sender is listed."""
+    at = 10 * SETTLED
+    two = Acquaintances(awaited=True).look((USER,), set(), 0).look((USER, PLAYER), set(), at + later)
+    assert two.judge(at, at + later) is WAITS
 
 
 def test_what_somebody_may_have_sent_who_has_gone_unknown_is_refused() -> None:
