@@ -6,8 +6,9 @@ enough to be recognised as a player. One that was sent while a player was there,
 is not obeyed: nobody can tell whose it was. Nor is a request that was sent while somebody was there who has ended
 before it was known for long enough, for who asks waits for the answer; who publishes once may end at once.
 
-Who is told of only after a message has come, has not sent it: a message waits for no newcomers of later, which would be
-for ever beside nodes that come and go. A request waits for all of them, for it may come before its sender is listed.
+Who was not there at a look after a message had come, has not sent it: a message waits for no newcomers of later, which
+would be for ever beside nodes that come and go. When somebody was first seen says nothing of that: a busy program looks
+seldom. A request waits for all of them, for it may come before its sender is listed.
 
 Times are ns on a clock that is never set.
 """
@@ -38,7 +39,7 @@ class Verdict(Enum):
 class Acquaintances:
     """Who publishes some topics, since when their nodes are known, and who of them plays a recording."""
 
-    listed: dict[Id, int] = field(default_factory=dict)  # [ns] since when each is, whether or not it is known
+    listed: dict[Id, int] = field(default_factory=dict)  # [ns] the latest look at which each was not there yet
     known: dict[Id, int] = field(default_factory=dict)  # [ns] since when
     unknown: frozenset[Id] = frozenset()
     players: str = ""  # their nodes' names
@@ -50,7 +51,7 @@ class Acquaintances:
     def look(self, publishers: Iterable[Publisher], players: Set[str], now: int) -> "Acquaintances":
         """See at `now` who publishes; players: names of all nodes that play recordings."""
         there = list(publishers)
-        listed = {one.id: self.listed.get(one.id, now) for one in there}
+        listed = {one.id: self.listed.get(one.id, self.looked) for one in there}
         known = {one.id: self.known.get(one.id, now) for one in there if one.node}
         unknown = frozenset(one.id for one in there if not one.node)
         playing = ", ".join(sorted({one.node for one in there if one.node in players}))
@@ -70,7 +71,7 @@ class Acquaintances:
         """Judge at `now` a message that came at `at`."""
         if self.players or (self.doubted is not None and self.doubted >= at):
             return Verdict.REFUSED
-        senders = [one for one, since in self.listed.items() if self.awaited or since <= at + LISTED]
+        senders = [one for one, absent in self.listed.items() if self.awaited or absent <= at + LISTED]
         if all(one in self.known and now - self.known[one] >= SETTLED for one in senders):
             return Verdict.OBEYED
         return Verdict.WAITS if now - at <= PATIENCE else Verdict.REFUSED

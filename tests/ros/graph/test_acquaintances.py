@@ -37,9 +37,16 @@ def test_one_whose_node_is_not_known_lets_everybody_wait_and_at_last_be_refused(
 def test_a_message_waits_for_no_newcomer_of_later(newcomer: Publisher, later: int, verdict: Verdict) -> None:
     """Beside ten nodes a second that come and go, nine of ten references were refused after 2 s."""
     at = 10 * SETTLED
-    two = met(USER).look((USER, newcomer), set(), at + later)
-    assert two.judge(at, at + later) is verdict
-    assert two.judge(at + later, at + later) is WAITS  # what has come since may be the newcomer's
+    two = met(USER).look((USER,), set(), at + later).look((USER, newcomer), set(), at + later + 1)
+    assert two.judge(at, at + later + 1) is verdict
+    assert two.judge(at + later, at + later + 1) is WAITS  # what has come since may be the newcomer's
+
+
+def test_who_is_first_seen_late_may_have_been_there_all_the_time() -> None:
+    """A busy program looks again half a second after a message of a player that had just come."""
+    at = 10 * SETTLED
+    two = met(USER).look((USER,), set(), at - 1).look((USER, PLAYER), set(), at + 5 * LISTED)
+    assert two.judge(at, at + 5 * LISTED) is WAITS
 
 
 @pytest.mark.parametrize("later", [LISTED + 1, PATIENCE])
