@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from motor_identification.logs.columns.clock import SLOWEST, guess_time_unit, row_period, since_1970
+from motor_identification.logs.columns.clock import SLOWEST, SLOWEST_STEADY, guess_time_unit, row_period, since_1970
 from motor_identification.logs.columns.heading import read_heading
 from motor_identification.logs.columns.motor_form import STEPS_BETWEEN, Rows, make_form, share_of_changes
 from motor_identification.logs.columns.notes import Notes
@@ -17,6 +17,7 @@ from motor_identification.logs.form import TIME_UNITS, CsvForm, time_unit_size
 from motor_model.errors import RecordingError
 
 _AT_A_RATE = re.compile(r"\d\s*k?hz\b", re.I)  # in the name of a column of times: 8 kHz
+MOST_STAIRS = 100  # rows: a program that looks at a motor every millisecond logs more
 SHORTEST = 1e-6  # [s] between rows: what a unit makes shorter is in another one
 
 
@@ -57,6 +58,8 @@ def _rows(table: Table, roles: Roles, said: Said, notes: Notes) -> Rows:
             )
         return Rows(None, "s", 0.0)
     unit, why = _time_unit(table, roles.time, said)
+    if unit == "us" and why and not said.time_unit and _climbs_stairs(table, roles):
+        unit, why = "ms", " (as few rows as a static curve has, a level each; otherwise: --time-unit)"
     if not said.time_unit and _AT_A_RATE.search(roles.time):
         notes.questions.append((roles.time, "counts by a rate: say how many seconds one is (--time-unit S)"))
     if said.sample_period:
@@ -95,6 +98,14 @@ def _time_unit(table: Table, column: str, said: Said) -> tuple[str, str]:
         )
     unit, why = guess_time_unit(values)
     return unit, f" ({why}; otherwise: --time-unit)"
+
+
+def _climbs_stairs(table: Table, roles: Roles) -> bool:
+    """Whether a voltage goes the same step further in each of few rows, a second or so apart if they are in ms."""
+    steps = np.diff(table.numbers(roles.pairs[0].voltage))
+    if not 1 < len(steps) < MOST_STAIRS or row_period(table.numbers(roles.time or "")) > SLOWEST_STEADY:
+        return False
+    return bool(np.mean((steps == np.median(steps)) & (steps != 0.0)) > STEPS_BETWEEN)
 
 
 def _is_steady(table: Table, roles: Roles, period: float) -> bool:

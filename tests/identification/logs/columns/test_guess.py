@@ -86,6 +86,20 @@ def test_a_clock_that_begins_shortly_before_the_first_row(tmp_path: Path, first:
     assert guess_forms(read_table(tmp_path / "log.csv"), Said()).forms[0].rest_until == rest
 
 
+@pytest.mark.parametrize(
+    ("rows", "step", "each", "unit"),
+    [(26, 1099, 1, "ms"), (100, 1099, 1, "ms"), (101, 1099, 1, "us"), (26, 5001, 1, "us"), (26, 1099, 5, "us")],
+)
+def test_few_rows_of_a_level_each_are_a_static_curve(
+    tmp_path: Path, rows: int, step: int, each: int, unit: str
+) -> None:
+    """A second apart by a board's milliseconds: in microseconds a motor had come to its speed within a row."""
+    lines = [f"{42300 + step * k},{10 * (k // each)},{8.0 * (k // each)}" for k in range(rows)]
+    (tmp_path / "log.csv").write_text("\n".join(["time,command,speedRpm", *lines]) + "\n")
+    guess = guess_forms(read_table(tmp_path / "log.csv"), Said(full_duty=1000.0, supply_voltage=7.4))
+    assert f"Time: time in {unit} (" in "".join(guess.findings) and (guess.forms[0].time is None) == (unit == "ms")
+
+
 @pytest.mark.parametrize(("period", "steady"), [(0.39, False), (0.41, True)])
 def test_rows_far_apart_with_a_voltage_each_are_steady_states(tmp_path: Path, period: float, steady: bool) -> None:
     rows = [f"{period * k + 0.001:.4f},{k % 7 + 1},{10 * (k % 7)}" for k in range(40)]
