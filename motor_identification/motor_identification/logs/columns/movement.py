@@ -6,6 +6,7 @@ from math import pi, sqrt, tau
 import numpy as np
 from numpy.typing import NDArray
 
+from motor_identification.logs.correlation import correlate
 from motor_identification.logs.count_size import FEWEST_COUNTS
 from motor_identification.logs.form import UNITS, Kind
 from motor_identification.logs.position_lattice import find_position_lattice
@@ -26,6 +27,7 @@ MOST_TOLD = 4096  # a turn, by which columns without names are told: of more, 5 
 FEWEST_MAGNETS = 3  # counts a turn of a sensor that may be meant where steps are so coarse: of one or two magnets
 FORGETS = 5.0  # time constants in a recording, from which on a column is a speed: a position forgets nothing
 UNSURE = (1.0, 20.0)  # time constants that a column of either may seem to have
+PROPORTIONAL = -0.99  # correlation of what such a controller drives with its output
 ASKED = {Kind.SPEED: ("rad/s", "deg/s", "rpm"), Kind.POSITION: ("rad", "deg", "rev", "count")}
 SLIDES = {Kind.SPEED: "mm/s or m/s", Kind.POSITION: "mm or m"}  # what moves along, and of no turn
 
@@ -45,8 +47,12 @@ def guess_kind(values: Floats, drive: Floats) -> Kind:
 
 
 def is_kind_sure(values: Floats, drive: Floats) -> bool:
-    """Whether it is clear which of both they are: a short run of a speed forgets little, a controlled position some."""
-    return not UNSURE[0] < _count_time_constants(values, drive) < UNSURE[1]
+    """Whether it is clear which of both they are: a short run of a speed forgets little, a controlled position some.
+
+    Under a proportional controller, whose output says the same as what it controls, neither tells what it forgets.
+    """
+    controlled = correlate(values, drive) < PROPORTIONAL
+    return not controlled and not UNSURE[0] < _count_time_constants(values, drive) < UNSURE[1]
 
 
 def _count_time_constants(values: Floats, drive: Floats) -> float:

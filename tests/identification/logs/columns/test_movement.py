@@ -42,6 +42,14 @@ def test_a_short_run_may_be_of_either() -> None:
     assert guess_kind(angle[:500], DRIVE[:500]) is Kind.SPEED and not is_kind_sure(angle[:500], DRIVE[:500])
 
 
+@pytest.mark.parametrize(("other", "sure"), [(0.0, False), (1.0, True)])
+def test_under_a_proportional_controller_nobody_knows_which_it_is(other: float, sure: bool) -> None:
+    """A camera's head that came to 105 degrees at no voltage was asked for a speed's unit."""
+    angle = 105.0 * (1.0 - np.exp(-np.arange(80) / 3.0))
+    effort = 0.1 * (110.0 - angle) + other * np.sin(np.arange(80))
+    assert guess_kind(angle, effort) is Kind.SPEED and is_kind_sure(angle, effort) == sure
+
+
 @pytest.mark.parametrize("unit", ["rad/s", "deg/s", "rpm"])
 def test_the_unit_of_speeds_by_the_counts_of_a_turn(unit: str) -> None:
     """Counts of 97 or 2,800 a turn within 10 ms; what is whole in rpm is so in deg/s too, six times as much."""
