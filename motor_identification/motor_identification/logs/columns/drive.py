@@ -71,6 +71,8 @@ def voltage_drive(heading: Heading, values: Floats) -> Drive:
         return Drive(None, f"goes up to {largest:.4g}, more than a motor's volts", sure=False)
     if not set(heading.words) & VOLTAGE_WORDS and LARGEST_VOLTS < largest in FULL_DUTIES and _is_cut_off(values):
         return duty_drive(heading, values)
+    if 0.0 < largest <= 1.0 and not set(heading.words) & VOLTAGE_WORDS:
+        return Drive(1.0, "in V (assumed; but no value is above 1: of a share of the supply, say --full-duty 1)")
     return Drive(1.0, "in V (assumed; otherwise: --full-duty, --voltage-scale)")
 
 

@@ -164,3 +164,10 @@ def test_an_esc_gets_pulses_and_no_duty(largest: float, pulse: bool) -> None:
 @pytest.mark.parametrize(("largest", "full"), [(2046.0, 4095.0), (2047.0, 2047.0), (2048.0, 4095.0)])
 def test_a_timer_of_eleven_bits_is_known_where_it_is_full(largest: float, full: float) -> None:
     assert duty_drive(read_heading("PWM"), np.array([0.0, 100.0, largest])).full == full
+
+
+@pytest.mark.parametrize(("name", "top", "doubted"), [("u", 1.0, True), ("u", 1.01, False), ("voltage", 1.0, False)])
+def test_an_input_that_is_never_above_1_may_be_a_share(name: str, top: float, doubted: bool) -> None:
+    """A duty of ±1 that was called u was read as volts, and kv was off by the whole supply."""
+    drive = voltage_drive(read_heading(name), top * WAVE / np.abs(WAVE).max())
+    assert drive.scale == 1.0 and ("--full-duty 1)" in drive.why) is doubted
