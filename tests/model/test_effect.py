@@ -40,7 +40,7 @@ ABSOLUTE_ONES = {"ripple_phase", "eccentricity", "eccentricity_phase"}  # angles
 @pytest.mark.parametrize(
     ("name", "sample", "duration", "box"),
     [
-        ("delay", 0.005, 28.0, (0.0, 0.5)),  # what is usual
+        ("delay", 0.005, 28.0, (0.0, 1.0)),  # what is usual
         ("delay", 0.005, 3.0, (0.0, 0.3)),  # a tenth of the recording
         ("delay", 0.1, 700.0, (0.0, 4.0)),  # 40 samples
         ("electrical_time_constant", 0.005, 28.0, (1e-5, 0.03)),

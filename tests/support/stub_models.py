@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
+from types import SimpleNamespace
 from typing import cast
 
 import numpy as np
@@ -121,3 +122,9 @@ class NamedModel(StubModel):
 def with_effects(model: Model, *effects: str) -> Model:
     """The stub as one that has these effects."""
     return NamedModel(**{field.name: getattr(model, field.name) for field in fields(model)}, names=effects)
+
+
+def late_by(rows: float) -> Estimate:
+    """An estimate of a motor that is late by so many rows, by whatever makes it late."""
+    parameters = SimpleNamespace(value=lambda name: 0.001 * rows)
+    return cast(Estimate, SimpleNamespace(parameters=parameters, problem=SimpleNamespace(sample_period=0.001)))

@@ -2,11 +2,11 @@
 
 from dataclasses import replace
 from types import SimpleNamespace
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 import pytest
-from stub_models import COUNT, FLOOR, LASTING_FLOOR, STEP, StubModel, stub_held, stub_model, stub_test
+from stub_models import COUNT, FLOOR, LASTING_FLOOR, STEP, StubModel, late_by, stub_held, stub_model, stub_test
 
 from motor_identification.diagnosis import candidate_test, thresholds
 from motor_identification.diagnosis.candidate_model import Model, Score
@@ -16,7 +16,6 @@ from motor_identification.diagnosis.candidate_test import (
     share_explained,
     takes_away_more,
 )
-from motor_identification.estimation.estimate import Estimate
 from motor_identification.noise.error_model import ErrorModel
 from motor_model.effects import LAGS
 from motor_model.parameters import PAPER_KA, PAPER_KV
@@ -215,12 +214,6 @@ def test_a_lag_longer_than_rows_are_late_is_the_motors(
     effects: dict[int, Any] = {id(model): (lag,)}
     monkeypatch.setattr(StubModel, "effects", property(lambda self: effects.get(id(self), ())))
     assert takes_away_more(model, plain) is taken
-
-
-def late_by(rows: float) -> Estimate:
-    """An estimate of a motor that is late by so many rows, by whatever makes it late."""
-    parameters = SimpleNamespace(value=lambda name: 0.001 * rows)
-    return cast(Estimate, SimpleNamespace(parameters=parameters, problem=SimpleNamespace(sample_period=0.001)))
 
 
 @pytest.mark.parametrize(

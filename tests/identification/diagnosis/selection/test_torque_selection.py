@@ -6,7 +6,7 @@ from typing import Any, cast
 
 import numpy as np
 import pytest
-from stub_models import StubModel, rescored, stub_model, stub_test, with_effects
+from stub_models import StubModel, late_by, rescored, stub_model, stub_test, with_effects
 from stub_selections import selection_of, step_of
 
 from motor_identification.diagnosis import thresholds
@@ -96,7 +96,7 @@ def test_what_was_refused_is_looked_for_once_more(
     """At the sensor's floor nothing else is judged again: more is believed; a lag only beside a torque [V]."""
     monkeypatch.setattr(StubModel, "errors", ErrorModel(0.0, 0.0, torque, 1.0))
     plain = replace(selection_of(stub_model(1.0, 0.0)), refused=refused)
-    ended = selection_of(stub_model(0.999, 0.0))
+    ended = selection_of(stub_model(0.999, 0.0, estimate=late_by(0.1)))
     effects: dict[int, Any] = {id(ended.model): (more,) if more else ()}
     monkeypatch.setattr(StubModel, "effects", property(lambda model: effects.get(id(model), ())))
     assert not plain.model.above_floor and not plain.model.lasts
