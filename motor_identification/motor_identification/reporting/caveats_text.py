@@ -28,6 +28,10 @@ SUPPLY = (
     "A supply of {:.4g} V is assumed, the most that was applied unless the import said more: of another one "
     "(import_log --max-voltage) kv and what its bridge does come out otherwise."
 )
+SAG = (
+    "A motor whose magnets saturate weakens with the current as a supply does that sags: log the supply's voltage to "
+    "tell."
+)
 GAINS = (
     "From run to run the speed at the same voltage differed by {:.2g} % (RMS), as it does where the supply differs; if "
     "that is a battery, log its voltage."
@@ -71,6 +75,11 @@ def describe_supply(diagnosis: Diagnosis) -> str:
     if not any(EFFECT_BY_NAME[name].of_supply for name in names) or not imported:
         return ""
     return SUPPLY.format(max(info.full_voltage for info in imported))
+
+
+def describe_sag(diagnosis: Diagnosis) -> str:
+    """Say what else weakens with the current, where a supply was found to sag; else empty."""
+    return SAG if any(one.effect == "supply_sag" for one in diagnosis.findings) else ""
 
 
 def describe_disturbance(diagnosis: Diagnosis) -> str:
