@@ -45,11 +45,16 @@ class Acquaintances:
     players: str = ""  # their nodes' names
     doubted: int | None = None  # [ns] the latest look at which nobody could tell whose a message was
     newest: int | None = None  # [ns] when the latest node came to be known
-    looked: int = 0  # [ns] the latest look
+    looked: int = 0  # [ns] the latest look, as it began
     awaited: bool = False  # who sends waits for an answer: one that ends before it has settled may be no hand
 
-    def look(self, publishers: Iterable[Publisher], players: Set[str], now: int) -> "Acquaintances":
-        """See at `now` who publishes; players: names of all nodes that play recordings."""
+    def look(
+        self, publishers: Iterable[Publisher], players: Set[str], now: int, begun: int | None = None
+    ) -> "Acquaintances":
+        """See at `now` who publishes; players: names of all nodes that play recordings.
+
+        begun: when they began to be listed, if before `now`: who is not among them may have come since.
+        """
         there = list(publishers)
         listed = {one.id: self.listed.get(one.id, self.looked) for one in there}
         known = {one.id: self.known.get(one.id, now) for one in there if one.node}
@@ -61,7 +66,8 @@ class Acquaintances:
         came = known.keys() - self.known.keys()
         doubted = now if playing or self.players or left else self.doubted  # who has just gone may have sent before
         newest = now if came else self.newest
-        return Acquaintances(listed, known, unknown, playing, doubted, newest, now, self.awaited)
+        looked = now if begun is None else begun
+        return Acquaintances(listed, known, unknown, playing, doubted, newest, looked, self.awaited)
 
     def watches(self, now: int) -> bool:
         """Whether somebody may still turn out to be a player."""

@@ -36,9 +36,10 @@ class Commanders:
         return self._acquaintances.judge(at, now)
 
     def _look(self) -> None:
+        begun = time.monotonic_ns()
         there = [one for topic in self._topics for one in list_publishers(self._node, topic)]
         now = self._looked = time.monotonic_ns()
         self._count = len(there)
         met = self._acquaintances.look(there, set(), now)
         players = find_players_among(self._node, there) if met.watches(now) or self.players else set()
-        self._acquaintances = self._acquaintances.look(there, players, now)
+        self._acquaintances = self._acquaintances.look(there, players, now, begun)

@@ -49,6 +49,13 @@ def test_who_is_first_seen_late_may_have_been_there_all_the_time() -> None:
     assert two.judge(at, at + 5 * LISTED) is WAITS
 
 
+@pytest.mark.parametrize(("begun", "verdict"), [(LISTED, WAITS), (LISTED + 1, OBEYED)])
+def test_who_was_not_listed_may_have_come_while_the_list_was_made(begun: int, verdict: Verdict) -> None:
+    at = 10 * SETTLED
+    two = met(USER).look((USER,), set(), at + 3 * LISTED, at + begun).look((USER, PLAYER), set(), at + 3 * LISTED + 1)
+    assert two.judge(at, at + 3 * LISTED + 1) is verdict
+
+
 @pytest.mark.parametrize("later", [LISTED + 1, PATIENCE])
 def test_a_request_waits_for_every_newcomer(later: int) -> None:
     """It may come before its sender is listed."""
