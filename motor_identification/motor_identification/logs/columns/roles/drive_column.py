@@ -17,7 +17,9 @@ Floats = NDArray[np.float64]
 
 STEADY = 0.7  # of its largest value: a battery stays above
 BOTH_WAYS = 0.2  # of the largest speed, which a motor has the other way
-STANDS, FEWEST_STANDING = 0.01, 10  # of the largest speed, in so many rows: a motor that stands again
+# Of the largest speed, in so many rows on end, and so many times as many as are between two rows of a motor that runs,
+# by the mean: one that stands again. Of slow counts every other row has none.
+STANDS, FEWEST_STANDING, TIMES_AS_LONG = 0.01, 10, 10.0
 FEWEST_CHANGES = 10  # of a battery's voltage, which sags; what changes in fewer rows is set
 
 
@@ -81,7 +83,9 @@ def _stands_again(speed: Floats) -> bool:
     top = float(np.max(size, initial=0.0))
     runs = size > 0.5 * top
     ran = int(np.argmax(runs)) if np.count_nonzero(runs) >= FEWEST_STANDING else len(size)  # a few rows are garbage
-    return np.count_nonzero(size[ran:] <= STANDS * top) >= FEWEST_STANDING
+    moves = np.flatnonzero(size[ran:] > STANDS * top)
+    steps = np.diff(np.append(moves, len(size) - ran))
+    return len(steps) > 0 and np.max(steps) > max(FEWEST_STANDING, TIMES_AS_LONG * float(np.median(steps)))
 
 
 def _swings(values: Floats) -> bool:

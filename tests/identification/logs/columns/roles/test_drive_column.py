@@ -65,3 +65,18 @@ def test_a_voltage_that_stays_while_a_motor_stands_again_is_a_battery(standing: 
             find_roles(table, Said())
     else:
         assert find_roles(table, Said()).pairs[0].voltage == "Voltage"
+
+
+@pytest.mark.parametrize(
+    ("rows", "standing", "battery"), [(2, 0, False), (15, 0, False), (15, 140, False), (15, 150, True)]
+)
+def test_rows_between_the_counts_of_a_slow_motor_are_no_standstill(rows: int, standing: int, battery: bool) -> None:
+    """The voltage of a step was taken for a battery's, for every other row had no count, and an import refused."""
+    speed = np.where(np.arange(400) % rows == 0, 1.0, 0.0)
+    speed[len(speed) - standing :] = 0.0
+    stepped = columns(t=0.001 * np.arange(400), VOLT=np.where(np.arange(400) < 4, 0.0, 6.0), vel=speed)
+    if battery:
+        with pytest.raises(RecordingError, match="no column is the voltage or duty"):
+            find_roles(stepped, Said())
+    else:
+        assert find_roles(stepped, Said()).pairs[0].voltage == "VOLT"
