@@ -1,6 +1,6 @@
 """When a log's speeds were made shows in the motion, and only there where nobody said it."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from types import SimpleNamespace
 from typing import Any, cast
@@ -207,6 +207,46 @@ def test_a_filter_behind_which_much_is_left_is_doubted(
     start, _ = diagnose_module._select_as_timed(first, Request(), reporter, limit)  # type: ignore[arg-type]
     assert start.timing == (OTHERS[0] if taken else smoothed)
     assert asked == ([True, False] if above else [True])
+
+
+@pytest.mark.parametrize(
+    ("above", "complete", "steps", "told", "explained", "taken"),
+    [
+        (True, False, True, True, True, True),
+        (False, False, True, True, True, False),  # nothing is left
+        (True, True, True, True, True, False),  # but what is random
+        (True, False, False, True, True, False),  # and nothing is near
+        (True, False, True, False, True, False),
+        (True, False, True, True, False, False),  # by the other timing, too
+    ],
+)
+def test_the_nearest_model_is_asked_for_the_timing_where_something_is_left(
+    monkeypatch: pytest.MonkeyPatch, above: bool, complete: bool, steps: bool, told: bool, explained: bool, taken: bool
+) -> None:
+    """A backlash that nobody knew of hid it, and half a row kept the backlash from explaining what it does."""
+    nearest = SimpleNamespace(steps=(1,) if steps else ())
+    begun: list[Any] = []
+    states = iter([(above, complete), (True, explained)])
+
+    def select(*_: Any) -> Any:
+        over, done = next(states)
+        model = SimpleNamespace(held=SimpleNamespace(gap=1.0), above_floor=over, complete=done)
+        return SimpleNamespace(selection=SimpleNamespace(model=model), effects=("backlash",), finished=True)
+
+    def look(first: Any, selection: Any, filtered: bool = True) -> Timing | None:
+        return OTHERS[0] if selection is nearest and told else None
+
+    monkeypatch.setattr(diagnose_module, "find_timing_beside", look)
+    monkeypatch.setattr(diagnose_module, "_select_in_time", select)
+    again = SimpleNamespace(selection=None, timing=OTHERS[0])
+    first = SimpleNamespace(selection=None, timing=None)
+    begin: Callable[..., Any] = lambda one, timing, *_: again if timing else first  # noqa: E731
+    monkeypatch.setattr(diagnose_module, "begin_as_timed", begin)
+    limit = SimpleNamespace(begin_with=begun.append, begin_again=lambda: True, best=nearest)
+    reporter = SimpleNamespace(stopped=lambda: False, beyond=lambda _: None)
+    start, _ = diagnose_module._select_as_timed(first, Request(), reporter, limit)  # type: ignore[arg-type]
+    assert start.timing == (OTHERS[0] if taken else None)
+    assert (begun[-1] is nearest) is (above and not complete and steps and told and not explained)
 
 
 def test_what_was_said_is_believed() -> None:
