@@ -97,6 +97,7 @@ class Effect:
         after_reversals: it shows for a while after the motor has turned round, and nowhere else.
         constant: the effect of the same size that it is where it began before the motion did.
         of_supply: what it does depends on the share of the supply that is applied.
+        stands_for: a sentence: what outside the table does the same, and what tells; empty where nothing is known to.
         splits_kv: viscous friction, which is a torque, differs from back-EMF under it; kv is both.
         fitted: a fit can have it as a parameter; else it is recognised in what any fit leaves.
     """
@@ -115,6 +116,7 @@ class Effect:
     after_reversals: bool = False
     constant: str | None = None
     of_supply: bool = False
+    stands_for: str = ""
     splits_kv: bool = False
     fitted: bool = True
 

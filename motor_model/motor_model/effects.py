@@ -118,6 +118,8 @@ EFFECTS = (
         (P("sag", "–", 0.0, 0.0, 1.0, starts=(0.05,)),),
         of_supply=True,
         splits_kv=True,
+        stands_for="A motor whose magnets saturate weakens with the current as a supply does that sags: log the "
+        "supply's voltage to tell.",
     ),
     Effect(
         "transport_delay",

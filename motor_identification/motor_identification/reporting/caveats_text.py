@@ -28,10 +28,6 @@ SUPPLY = (
     "A supply of {:.4g} V is assumed, the most that was applied unless the import said more: of another one "
     "(import_log --max-voltage) kv and what its bridge does come out otherwise."
 )
-SAG = (
-    "A motor whose magnets saturate weakens with the current as a supply does that sags: log the supply's voltage to "
-    "tell."
-)
 GAINS = (
     "From run to run the speed at the same voltage differed by {:.2g} % (RMS), as it does where the supply differs; if "
     "that is a battery, log its voltage."
@@ -77,9 +73,9 @@ def describe_supply(diagnosis: Diagnosis) -> str:
     return SUPPLY.format(max(info.full_voltage for info in imported))
 
 
-def describe_sag(diagnosis: Diagnosis) -> str:
-    """Say what else weakens with the current, where a supply was found to sag; else empty."""
-    return SAG if any(one.effect == "supply_sag" for one in diagnosis.findings) else ""
+def describe_likes(diagnosis: Diagnosis) -> str:
+    """Say what outside the table does the same as what was found, one sentence an effect; empty where nothing does."""
+    return " ".join(said for one in diagnosis.findings if (said := EFFECT_BY_NAME[one.effect].stands_for))
 
 
 def describe_disturbance(diagnosis: Diagnosis) -> str:

@@ -13,7 +13,7 @@ from motor_identification.reporting.caveats_text import (
     describe_disturbance,
     describe_few_values,
     describe_gains,
-    describe_sag,
+    describe_likes,
     describe_supply,
 )
 from motor_identification.reporting.diagnosis_table import format_parameters
@@ -57,7 +57,13 @@ STRUCTURE_NAMES = {
 def summarize_diagnosis(diagnosis: Diagnosis) -> str:
     """Say what was missing, what it explains and what is left, in one to three sentences, then what to do."""
     seen = SEEN if diagnosis.after.seen else ""
-    told = (describe_gains(diagnosis), describe_sag(diagnosis), describe_supply(diagnosis), seen, _next_step(diagnosis))
+    told = (
+        describe_gains(diagnosis),
+        describe_likes(diagnosis),
+        describe_supply(diagnosis),
+        seen,
+        _next_step(diagnosis),
+    )
     parts = (_SUMMARIES[diagnosis.verdict](diagnosis), *told)
     return " ".join(part for part in parts if part)
 
