@@ -84,17 +84,19 @@ def number_rows(time: Floats) -> Integers | None:
     if usual <= 0.0:
         return None
     rows = steps / usual
+    even = float(np.mean(np.abs(rows - np.maximum(np.rint(rows), 1.0)) < EVEN)) > MOST_EVEN
+    for at in np.flatnonzero(rows[1:] < 1.0 - EVEN)[::-1]:  # what is stamped soon after a late row came with it
+        rows[at] -= 1.0 - rows[at + 1]
     whole = np.maximum(np.rint(rows), 1.0)
-    even = float(np.mean(np.abs(rows - whole) < EVEN)) > MOST_EVEN
     number = np.append(0, np.cumsum(whole)).astype(np.int64)
     missing = 1.0 - len(number) / float(number[-1] + 1)
     return number if even and 0.0 < missing < MOST_MISSING and not _are_ticks(steps) else None
 
 
 def _are_ticks(steps: Floats) -> bool:
-    """Decide whether steps [s] of stamps are those of a clock that ticks once a row, of rows a little longer than that.
+    """Decide whether steps [s] of stamps are those of a clock that ticks once a row, of rows a little longer.
 
-    Then none is missing: some rows take a tick more, by a beat. A tick is a millisecond, or a last digit that is logged.
+    Then none is missing: some rows take a tick more, by a beat. A tick is a millisecond, or another last digit.
     """
     tick = 10.0 ** round(log10(float(np.median(steps))))
     ticks = np.rint(steps / tick)

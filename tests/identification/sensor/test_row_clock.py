@@ -110,3 +110,15 @@ def test_rows_are_missing_by_chance_though_their_stamps_are_whole_ticks() -> Non
     logged = np.append(True, np.random.default_rng(9).random(ROWS - 1) > 0.05)
     number = number_rows(PERIOD * np.flatnonzero(logged))
     assert number is not None and np.array_equal(number, np.flatnonzero(logged))
+
+
+@pytest.mark.parametrize("together", [1, 3])
+def test_rows_that_come_late_and_together_are_none_that_are_missing(together: int) -> None:
+    """A computer that was busy stamps them one soon after the other: as many more were said to be missing."""
+    stamps = PERIOD * np.arange(2 * ROWS)
+    for row in range(300, 2 * ROWS, 400):
+        stamps[row : row + together] = stamps[row + together] - 0.001 * PERIOD * np.arange(together, 0, -1)
+    assert number_rows(stamps) is None
+    logged = np.delete(np.arange(2 * ROWS), [50, 299, 310])
+    number = number_rows(stamps[logged])
+    assert number is not None and np.array_equal(number, logged)
