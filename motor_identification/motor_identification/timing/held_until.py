@@ -24,7 +24,7 @@ from motor_identification.noise.error_model import ErrorModel
 from motor_identification.recording import Recording
 from motor_identification.sensor.speed_sensor import find_counts
 from motor_identification.timing.shaped_fit import BEGIN, ITERATIONS, TOLERANCE, Shaper
-from motor_identification.timing.timing import ASSUMED, LEAST_DELAY, OTHERS, UNTIL, is_open, is_voltage_open
+from motor_identification.timing.timing import ASSUMED, LEAST_DELAY, OTHERS, UNTIL, Timing, is_open, is_voltage_open
 
 # Of log likelihood, in all and a row, which the later reading has to be worth. Measured in some hundred simulated logs,
 # written either way, with nothing late in them: 20 to 1,100 (0.015 to 0.5 a row) where voltages held until their rows
@@ -90,7 +90,8 @@ def describe_untold(estimate: Estimate, error: float) -> list[str]:
         return _compare(estimate, _read_later(estimate), error, UNTOLD)
     if all(is_open(one) and not _is_counted(one) for one in problem.recordings):
         row = OTHERS[0].window * problem.sample_period
-        return _compare(estimate, _read_at_instants(estimate), error, UNTOLD_SPEEDS.format(row))
+        here, there = (_read_rows(estimate, timing) for timing in (ASSUMED, OTHERS[0]))
+        return _compare(here, there, error, UNTOLD_SPEEDS.format(row))
     return []
 
 
@@ -124,11 +125,13 @@ def _read_later(estimate: Estimate) -> Estimate:
     return fit_speeds(Estimate(problem, theta), np.inf, ITERATIONS, TOLERANCE)
 
 
-def _read_at_instants(estimate: Estimate) -> Estimate:
-    """Fit the same recordings with speeds of their rows' own instants."""
+def _read_rows(estimate: Estimate, timing: Timing) -> Estimate:
+    """Fit all rows that a fit may see, also of a problem that was thinned, with speeds that were made so."""
     before = estimate.problem
-    recordings = OTHERS[0].set_on(before.recordings)
-    problem = make_problem(recordings, before.unknowns.effects, before.workers, before.stopped)
+    effects, split = before.unknowns.effects, before.unknowns.splits_kv
+    problem = make_problem(timing.set_on(before.recordings), effects, before.workers, before.stopped)
+    problem = replace(problem.with_effects(effects, split), tracks=before.tracks, kept_out=before.kept_out)
+    problem = problem.with_intervals(problem.intervals)
     theta = map_theta(before.unknowns, estimate.theta, problem.unknowns, {})
     return fit_speeds(Estimate(problem, theta), np.inf, ITERATIONS, TOLERANCE)
 

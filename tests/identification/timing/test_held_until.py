@@ -248,5 +248,29 @@ def test_a_quick_motor_has_two_inertias_by_when_its_speeds_were_made(digits: int
         assert float(notes[0].split("ka would be ")[1].split()[0]) == pytest.approx(fast["ka"], rel=0.05)
 
 
+def make_converted(*drive: Floats, **motor: float) -> Recording:
+    """Speeds of a converter, of rows that are as long as a quick motor's time constant."""
+    exact = {"edges": 960, "sample_rate": 1.0 / ROW, "single_channel": False}
+    recording, truth = record({"kv": 0.05, "ka": 0.001} | motor, *drive, **exact)  # type: ignore[arg-type]
+    noise = np.random.default_rng(0).standard_normal(len(truth.speed))
+    return assume(replace(without_count(as_speed(recording)), speed=truth.speed + noise))
+
+
+@pytest.mark.parametrize("seconds", keep_fast([2.0, 30.0], 2.0))
+def test_a_diagnosis_compares_the_same_rows_by_both_readings(seconds: float) -> None:
+    """Those that were held out, and those that were joined in a long log, were in one of them: nothing was said."""
+    drive = profiles.joined(*[profiles.ramps(6.0, seconds)] * 4)
+    found = diagnose([make_converted(*drive, ks=0.4)])
+    assert any("ka would be" in note for note in found.model.notes)
+
+
+def test_both_readings_are_fitted_on_the_measured_angle(monkeypatch: pytest.MonkeyPatch) -> None:
+    read = list[Estimate]()
+    monkeypatch.setattr(module, "_compare", lambda here, there, *_: read.extend([here, there]) or [])
+    identify([make_converted(*profiles.ramps(6.0, 4.0))], Request(("torque_ripple",)))
+    here, there = read
+    assert here.problem.tracks == there.problem.tracks != ()
+
+
 def list_untold(recording: Recording) -> list[str]:
     return [note for note in identify([recording], Request()).notes if "ka would be" in note]
