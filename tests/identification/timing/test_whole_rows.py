@@ -1,10 +1,13 @@
 """A filter runs on the board, where no row is missing: what went into it is found though a log lacks some."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from scipy.signal import lfilter
 
 from motor_identification.recording import Bools, Floats
+from motor_identification.timing import whole_rows
 from motor_identification.timing.speed_filter import BILINEAR, BUTTERWORTH, KINDS, MEAN, MEMORY, TWICE, SpeedFilter
 from motor_identification.timing.whole_rows import undo_on_whole_rows
 
@@ -80,3 +83,17 @@ def test_what_is_missing_is_fitted_by_its_own_pattern() -> None:
     assert undo(values) == pytest.approx(went_in)
     whole = undo_on_whole_rows(undo, values[number], number, 0.0, 0)
     assert len(whole) == 100 and whole[number] == pytest.approx(np.full(99, 3.0), abs=1e-6)  # likelier than a bump
+
+
+def test_many_missing_rows_are_found_in_seconds(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of 30,000 that are missing before a Butterworth filter, each trial of one took minutes; and no better."""
+    _, went_in = make_speeds()
+    passed, logged, time = SpeedFilter(BUTTERWORTH, 0.7), lose(0.15), PERIOD * np.arange(ROWS)
+    came_out = pass_through(passed, went_in)[logged]
+    off = []
+    for rounds in (100_000, 100):
+        monkeypatch.setattr(whole_rows, "ROUNDS", rounds)
+        off.append(float(np.std(passed.undo(came_out, time[logged]) - went_in[logged])))
+    assert off[1] == pytest.approx(off[0], rel=0.05)
+    monkeypatch.setattr("scipy.sparse.linalg.splu", lambda *_, **__: SimpleNamespace(solve=lambda sums: 0.0 * sums))
+    assert np.std(passed.undo(came_out, time[logged]) - went_in[logged]) > 10.0 * off[1]  # in few rounds it is far off
