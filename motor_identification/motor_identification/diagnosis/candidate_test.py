@@ -134,7 +134,7 @@ class CandidateTest:
         free = EFFECT_BY_NAME[self.effect].periodic or said > likelihood_threshold()
         tie = thresholds.GAP_TIE if said > thresholds.TIE_LIKELIHOOD else 1.0
         shrinks = self.model.held.gap <= self.held_before.gap * (thresholds.GAP_CHANCE if free else tie)
-        if shrinks and self.model.held.gap > self.held_before.gap:  # a coarse sensor's noise hides how much it grows
+        if shrinks and self.model.held.gap > thresholds.GROWN_GAP * self.held_before.gap:  # more than a sensor's noise
             before, after = self._join_lasting()
             shrinks = after.gap <= before.gap * thresholds.GAP_CHANCE
         rows = min(self.model.score.scored, thresholds.RELEVANT_ROWS * self.model.measure_lags())

@@ -97,9 +97,12 @@ RELEVANT_ROWS = 12.0
 # Times the gap before: so much it may grow by chance where a finding is fast beside the random torque that the gap is
 # mostly of, or where the held-out motion beside that torque speaks for it. Measured: 1.03 with a ripple of 0.3 V beside
 # a torque of 0.1 V, the same with a friction by e^26 beside 0.075 V in a log at 50 Hz; where a model fits the torque
-# instead of the motion 1.3 and more. As much what lasts: 1.05 with a sag that is there, 1.18 to 1.5 with three that are
-# not, of whose gaps, a coarse sensor's noise, the sensor left all.
+# instead of the motion 1.3 and more.
 GAP_CHANCE = 1.1
+# Beyond this what lasts may not grow by more than that either, for a coarse sensor's gap is mostly its own noise.
+# Measured: gaps of 1.05 and 1.08, of which what lasts was 1.18 to 1.5, with a drag and a breakaway that are not there;
+# of 1.002 to 1.02, of which it was 1.05 to 1.2, with a sag and two frictions that are.
+GROWN_GAP = 1.03
 # The same where held-out motion speaks for a finding less: a coarse sensor's gap is its own noise, whatever is found.
 # Measured: 1.0008 with a friction of 5 % of the supply, likelier by 38, of counts of which a row has one or two.
 GAP_TIE = 1.005

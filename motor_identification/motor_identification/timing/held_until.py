@@ -39,13 +39,15 @@ MATTERS, SURE_ERRORS = 0.05, 3.0
 # Of log likelihood: a later reading that is less likely by more is none, as far as a fit without all effects goes.
 AS_LIKELY = 10.0
 MOST_COUNTS = 20_000  # a turn, of an encoder
-UNTOLD = (
-    "From when on a row's voltage holds was not said, and this log does not tell: of voltages that held until their "
-    "rows (import_log --voltage-before)"
+UNTOLD = "this log does not tell"
+LIKELIER = "this motion rather speaks for another reading"
+OF_VOLTAGES = (
+    "From when on a row's voltage holds was not said, and {}: of voltages that held until their rows (import_log "
+    "--voltage-before)"
 )
-UNTOLD_SPEEDS = (
-    "When speeds were made was not said, and this log does not tell: of values of their rows' own instants (import_log "
-    "--speed-window {:.3g} --speed-lag 0)"
+OF_SPEEDS = (
+    "When speeds were made was not said, and {}: of values of their rows' own instants (import_log --speed-window "
+    "ROW --speed-lag 0)"
 )
 
 
@@ -84,14 +86,15 @@ def describe_untold(estimate: Estimate, error: float) -> list[str]:
     error: the standard error of ka. Nothing where it is much the same.
     """
     problem = estimate.problem
-    if problem.sample_period < MATTERS * estimate.parameters.time_constant:
+    imported = all(one.info.source == "import" for one in problem.recordings)
+    if not imported or problem.sample_period < MATTERS * estimate.parameters.time_constant:
         return []
     if all(map(is_voltage_open, problem.recordings)):
-        return _compare(estimate, _read_later(estimate), error, UNTOLD)
+        return _compare(estimate, _read_later(estimate), error, OF_VOLTAGES)
     if all(is_open(one) and not _is_counted(one) for one in problem.recordings):
         row = OTHERS[0].window * problem.sample_period
         here, there = (_read_rows(estimate, timing) for timing in (ASSUMED, OTHERS[0]))
-        return _compare(here, there, error, UNTOLD_SPEEDS.format(row))
+        return _compare(here, there, error, OF_SPEEDS.replace("ROW", f"{row:.3g}"))
     return []
 
 
@@ -108,7 +111,8 @@ def _compare(estimate: Estimate, other: Estimate, error: float, text: str) -> li
     alike = abs(of_other - ka) <= max(MATTERS * ka, SURE_ERRORS * error)
     if alike or there.likelihood < here.likelihood - AS_LIKELY:
         return []
-    return [f"{text} ka would be {of_other:.3g} instead of {ka:.3g} V·s²/rad."]
+    told = LIKELIER if there.likelihood > here.likelihood + AS_LIKELY else UNTOLD
+    return [f"{text.format(told)} ka would be {of_other:.3g} instead of {ka:.3g} V·s²/rad."]
 
 
 def count_intervals(estimate: Estimate) -> int:

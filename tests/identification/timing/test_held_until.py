@@ -197,6 +197,7 @@ def test_a_fit_and_a_diagnosis_use_what_was_found() -> None:
 @pytest.mark.parametrize(
     ("times", "gain", "error", "said"),
     [
+        (1.06, 9.9, 0.0, True),
         (1.06, 0.0, 0.0, True),
         (0.94, 19.0, 0.0, True),
         (1.04, 0.0, 0.0, False),  # much the same
@@ -214,8 +215,8 @@ def test_what_inertia_would_be_by_the_other_voltages_is_said_where_nothing_tells
     other = SimpleNamespace(parameters=SimpleNamespace(value=lambda name: {"ka": times * ka}[name]))
     readings = iter([_Reading(estimate, NONE, 0.0), _Reading(cast(Estimate, other), NONE, gain)])
     monkeypatch.setattr(module, "_fit_beside_torque", lambda one: next(readings))
-    monkeypatch.setattr(module, "MATTERS", 0.05)
-    assert bool(describe_untold(estimate, error * ka)) is said
+    notes = describe_untold(estimate, error * ka)
+    assert bool(notes) is said and all(("this log does not tell" in note) is (gain <= 10.0) for note in notes)
 
 
 def test_a_quick_motor_on_a_coarse_encoder_has_two_inertias_by_when_its_voltages_hold() -> None:
