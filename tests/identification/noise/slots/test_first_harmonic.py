@@ -20,3 +20,11 @@ def test_the_bound_is_five_standard_deviations_of_random_discs() -> None:
         np.exp(-2.0), abs=0.02
     )
     assert not np.any(np.abs(waves) > bound_chance_eccentricity(slot, share))
+
+
+@pytest.mark.parametrize(("share", "least"), [(0.0, 1e-4), (0.9e-4, 1e-4), (1.1e-4, 1.1e-4)])
+def test_no_disc_is_more_even_than_a_ten_thousandth_of_a_slot(share: float, least: float) -> None:
+    """Of six slots what is left beside a first harmonic is little, by chance."""
+    slot = tau / 6
+    assert bound_chance_eccentricity(slot, share) == pytest.approx(5.0 * least * slot * sqrt(2.0 / 6))
+    assert bound_chance_eccentricity(0.0, share) == 0.0
