@@ -39,6 +39,7 @@ from motor_identification.measurement.request_checks import check_effects
 from motor_identification.progress import ProgressReporter, Stage, Stopped, TimeLimit
 from motor_identification.recording import Recording
 from motor_identification.sensor.description import note_sensors
+from motor_identification.timing.timing import Timing
 from motor_model.effects import LAGS
 from motor_model.errors import RecordingError
 from motor_model.program.memory import ask_for_room
@@ -176,8 +177,7 @@ def _select_as_timed(
     most = thresholds.HALVED_GAP if doubted else thresholds.GAP_CHANCE
     if timing == start.timing or not limit.begin_again():
         return start, selected
-    again = begin_as_timed(first, timing, request, reporter.stopped)
-    other = _select_in_time(again.selection, reporter.beyond(DONE_ONCE), limit)
+    again, other = _select_again(first, timing, request, reporter, limit)
     model = other.selection.model
     # What a filter hides of the noise makes a gap smaller, too: without it, all has to be explained.
     alike = model.held.gap <= most * selected.selection.model.held.gap and (model.complete or not doubted)
@@ -199,12 +199,19 @@ def _select_as_timed_by_nearest(
     timing = find_timing_beside(first, nearest)
     if timing is None or not limit.begin_again():
         return None
-    again = begin_as_timed(first, timing, request, reporter.stopped)
-    other = _select_in_time(again.selection, reporter.beyond(DONE_ONCE), limit)
+    again, other = _select_again(first, timing, request, reporter, limit)
     if other.finished and other.selection.model.complete:
         return again, other
     limit.begin_with(nearest)  # of which is told where nothing is named
     return None
+
+
+def _select_again(
+    first: Start, timing: Timing | None, request: Request, reporter: ProgressReporter, limit: TimeLimit[Selection]
+) -> tuple[Start, _Selected]:
+    """Select once more with speeds that were made by another timing."""
+    again = begin_as_timed(first, timing, request, reporter.stopped)
+    return again, _select_in_time(again.selection, reporter.beyond(DONE_ONCE), limit)
 
 
 def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tuple[str, ...]]:

@@ -117,10 +117,7 @@ class SpeedFilter:
 
     def _undo_plainly(self, speed: Floats) -> Floats:
         """Undo by the polynomials alone, without what was in a mean before the first row."""
-        plain = self._undo_poles(speed)
-        for rows in KINDS[self.kind].means(self.number):
-            plain = _filter([1.0], _make_zeros(rows), plain - plain[0]) + plain[0]
-        return plain
+        return reduce(_undo_pulled_in, KINDS[self.kind].means(self.number), self._undo_poles(speed))
 
     def _undo_poles(self, speed: Floats) -> Floats:
         poles = self.poles
@@ -174,12 +171,16 @@ def undo_mean(values: Floats, rows: int) -> Floats:
     return went_in
 
 
+def _undo_pulled_in(values: Floats, rows: int) -> Floats:
+    """Undo a mean of so many rows by its zeros that are pulled in, as if the first value had long been there, (K,)."""
+    return np.asarray(_filter([1.0], _make_zeros(rows), values - values[0]) + values[0])
+
+
 def _undo_forgetting(values: Floats, rows: int, around: Floats) -> Floats:
     """Compute what went in (K,) with zeros that are pulled in; around: the mean around each row."""
-    first = values[0]
-    went_in = _filter([1.0], _make_zeros(rows), values - first) + first
+    went_in = _undo_pulled_in(values, rows)
     if np.ptp(values[:rows]) == 0.0:  # it stood
-        return np.asarray(went_in)
+        return went_in
     left = (1.0 - FORGOTTEN) ** (np.arange(len(values)) / rows)
     number = np.arange(len(values)) % rows
     missing = np.bincount(number, left * (went_in - around)) / np.bincount(number, left**2)
