@@ -38,10 +38,16 @@ def list_clients(node: Node, service: str) -> list[Publisher]:
 
 
 def _list_calling_nodes(node: Node, service: str) -> list[Publisher]:
-    """List the nodes that have clients, where the middleware does not tell of each (its topics have other names)."""
+    """List the nodes that have clients, where the middleware does not tell of each (its topics have other names).
+
+    Of several nodes of one name it answers for one: where more clients are there than were found, one is nameless.
+    """
     nodes = [full_name(space, name) for name, space in node.get_node_names_and_namespaces()]
-    asked = ((one, ask_of_node(node.get_client_names_and_types_by_node, one)) for one in nodes if one)
-    return [Publisher(tuple(one.encode()), one) for one, found in asked if any(name == service for name, _ in found)]
+    names = {one for one in nodes if one}
+    asked = ((one, ask_of_node(node.get_client_names_and_types_by_node, one)) for one in sorted(names))
+    calling = [one for one, found in asked if any(name == service for name, _ in found)]
+    hidden = len(nodes) > len(names) and node.count_clients(service) > len(calling)
+    return [Publisher(tuple(one.encode()), one) for one in calling + [""] * hidden]
 
 
 def count_publishers(node: Node, topic: str) -> int:
