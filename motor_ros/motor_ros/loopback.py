@@ -25,7 +25,7 @@ ELSEWHERE = ("ROS_STATIC_PEERS", "ROS_DISCOVERY_SERVER")  # who is told of a nod
 SKIP = "SKIP_DEFAULT_XML_FILE"
 MIDDLEWARE = "RMW_IMPLEMENTATION"
 MOST = 1 << 20  # [byte] of a profile
-_OPENED = ("SUBNET", "SYSTEM_DEFAULT")
+OPENED_RANGES = ("SUBNET", "SYSTEM_DEFAULT")
 NOT_TOLD = (
     "{} is set and not used, for nodes stay on this machine: export ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET to open it."
 )
@@ -45,7 +45,7 @@ def stay_on_this_machine(environment: MutableMapping[str, str] = os.environ) -> 
     """Set what Fast DDS reads when the first node starts, as env.sh does for a shell; say what is not used, or open."""
     environment[RANGE] = environment.get(RANGE) or "LOCALHOST"
     environment[SKIP] = environment.get(SKIP) or "1"  # a profile in the working directory is not read
-    ours = CLOSED if environment[RANGE] not in _OPENED else OPEN
+    ours = CLOSED if environment[RANGE] not in OPENED_RANGES else OPEN
     theirs = environment.get(PROFILE) or str(ours)
     named = Path(theirs).name in (CLOSED.name, OPEN.name)
     lost = not named and not is_profile(theirs)

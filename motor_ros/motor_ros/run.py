@@ -18,6 +18,7 @@ from motor_model.errors import MotorError
 from motor_model.given.mistakes import find_mistake
 from motor_model.program.internal_error import report
 from motor_ros.clocks.clock_watch import ClockWatch
+from motor_ros.graph.open_sockets import refuse_open_sockets
 from motor_ros.loopback import stay_on_this_machine
 from motor_ros.parameter_requests import check_parameter_requests
 from motor_ros.parameters import given_parameters, unknown_parameters
@@ -153,6 +154,7 @@ def run(
     try:
         start_ros(args)
         node = _created(create)
+        refuse_open_sockets(node.context.get_domain_id())
         check_parameter_requests(node)
         for warning in unknown_parameters(node, program.rows if program else ()):
             node.get_logger().warning(warning)

@@ -5,5 +5,6 @@ acquaintances  whom one knows well enough to obey, and who only plays a recordin
 players        nodes that play recordings
 commanders     looks for them on a node's topics
 callers        answers requests once it is known who may have asked
+open_sockets   the middleware listens to every network, unasked
 other_plant    somebody else publishes a plant's samples
 """

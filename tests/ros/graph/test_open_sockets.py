@@ -1,0 +1,50 @@
+"""A node that can be reached from elsewhere, though nobody has opened the network, does not start."""
+
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+from patience import PATIENCE
+from workbench import ENVIRONMENT, program
+
+from motor_ros.graph.open_sockets import count_open
+from motor_ros.loopback import CLOSED, PROFILE, RANGE
+
+HEAD = "sl local_address rem_address st tx:rx tr:when retrnsmt uid timeout inode\n"
+OURS = CLOSED.read_text()
+WRONG = {
+    "a tag that there is none of": OURS.replace("<rtps>", "<rtps><nonsense/>"),
+    "opened by its owner": "<dds><profiles></profiles></dds>",
+}
+
+
+def table(*sockets: tuple[str, int, str]) -> str:
+    rows = (f"1: {address}:{port:04X} 0:0 07 0:0 0:0 0 0 0 {inode}\n" for address, port, inode in sockets)
+    return HEAD + "".join(rows)
+
+
+def test_own_sockets_on_all_addresses_at_a_domains_ports_are_counted() -> None:
+    anyone, here, six = "0" * 8, "0100007F", "0" * 32
+    first = 7400 + 250 * 3
+    found = [(anyone, first + 10, "1"), (anyone, first - 1, "1"), (anyone, first + 250, "1"), (anyone, first, "2")]
+    tables = [table((here, first + 11, "1"), *found), table((six, first + 249, "1"))]
+    assert count_open(3, tables, ["1"]) == 2
+    assert count_open(3, tables, []) == 0 and count_open(5, tables, ["1", "2"]) == 0
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/net/udp"), reason="the kernel does not list sockets")
+@pytest.mark.parametrize("wrong", WRONG)
+def test_no_plant_starts_with_a_profile_that_leaves_it_open(wrong: str, tmp_path: Path) -> None:
+    """Fast DDS logged an error for the first, and went on with a motor that everybody on the network could drive."""
+    profile = tmp_path / "own.xml"
+    profile.write_text(WRONG[wrong])
+    done = subprocess.run(
+        [program("motor_sim", "motor_sim")],
+        env=ENVIRONMENT | {PROFILE: str(profile), RANGE: "LOCALHOST"},
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE,
+    )
+    assert done.returncode == 1 and "listens to every network, not only on this machine: Fast DDS" in done.stderr
+    assert str(profile) in done.stderr and "Traceback" not in done.stderr
