@@ -22,6 +22,7 @@ RUNNING = 0.75  # of the speed at that voltage: below, it was coming to a stop
 # Of the way in the first halves of the times at little voltage, that in the second ones: of less it ran out, as where a
 # position is reached. Measured: 0.1 of a servo that was there.
 RUNS_ON = 0.25
+AGAIN = " It runs again later: to have all of it, log the voltage, too."
 
 
 def drop_unpowered_end(signals: Signals, form: CsvForm) -> tuple[Signals, list[str]]:
@@ -32,16 +33,19 @@ def drop_unpowered_end(signals: Signals, form: CsvForm) -> tuple[Signals, list[s
     keep, said = np.ones(len(signals), np.bool_), []
     for run in signals.runs.values():
         volts, motion = np.abs(signals.voltage[run]), signals.motion[run]
+        every, said_alone = len(volts), form.voltage == CONSTANT
+        if said_alone and (again := _count_rows_until_restart(volts, motion, form.kind)):
+            volts, motion = volts[:again], motion[:again]
         ran = _count_rows_until_rest(motion, form.kind)
         stood, kept = find_standing_voltage(volts[ran:]), ran + 1
-        said_alone = form.voltage == CONSTANT
         if stopped := _count_rows_until_stop(volts, motion, form.kind, ran, MOST if said_alone else HALFWAY):
             stood, kept = float(volts[-1]), stopped
         if stopped and said_alone:
             keep[run.start + kept : run.stop] = False
             said.append(
-                f"Left out: the last {len(volts) - kept} rows, in which {form.motion} comes to rest under the "
+                f"Left out: the last {every - kept} rows, in which {form.motion} comes to rest under the "
                 f"{stood:.3g} V that were said: the motor was switched off, or held (assumed)."
+                + (AGAIN if len(volts) < every else "")
             )
             continue
         little = (volts[:ran] > 0.0) & (volts[:ran] <= HALF * stood)
@@ -77,6 +81,25 @@ def _count_rows_until_rest(motion: Floats, kind: Kind) -> int:
     """How many rows there are until a motor rests for good: its speeds, shape (K,), are 0, or its counts the last."""
     moves = motion != (0.0 if kind is Kind.SPEED else motion[-1])
     return int(np.flatnonzero(moves)[-1]) + 1 if moves.any() else 0
+
+
+def _count_rows_until_restart(volts: Floats, motion: Floats, kind: Kind) -> int:
+    """How many rows there are until a motor that had come to rest under its voltage moves again; 0 where it does not.
+
+    A rest is as long as one at a log's end, and in it would have been as many counts.
+    """
+    speed = _travel(motion, kind)
+    moves = (speed > 0.0) & (volts > 0.0)
+    moved = speed[moves]
+    if len(moved) < ROWS:
+        return 0
+    begin = int(np.flatnonzero(moves)[ROWS - 1])
+    count = 0.0 if kind is Kind.SPEED else float(np.min(moved))
+    fewest = max(ROWS, EXPECTED * count * len(speed[begin:]) / float(np.sum(speed[begin:])))
+    edges = np.flatnonzero(np.diff(np.concatenate(([1.0], speed[begin:], [1.0])) > 0.0))
+    long = [stop for start, stop in zip(edges[::2], edges[1::2], strict=True) if stop - start >= fewest]
+    again = begin + int(long[0]) if long else len(volts)
+    return again if again < len(volts) else 0
 
 
 def _count_rows_until_stop(volts: Floats, motion: Floats, kind: Kind, ran: int, level: tuple[float, float]) -> int:

@@ -111,3 +111,16 @@ def test_a_slow_encoder_that_gives_no_count_for_some_rows_runs_on() -> None:
     counts = np.floor(np.cumsum(0.05 * volts))
     counts[-8:] = counts[-9]  # in which 1.6 counts were due
     assert drop_unpowered_end(logged(volts, counts), replace(SPEED, kind=Kind.COUNT))[1] == []
+
+
+@pytest.mark.parametrize("kind", [Kind.SPEED, Kind.COUNT])
+@pytest.mark.parametrize(("rest", "kept"), [(60, 100), (5, 360)])
+def test_a_motor_that_was_switched_on_again_ends_before(kind: Kind, rest: int, kept: int) -> None:
+    """On, off, on: of a voltage that was said nobody knows when it came back. Values that were not read are no rest."""
+    speed = np.concatenate((np.full(100, 90.0), np.linspace(60.0, 1.0, 20), np.zeros(rest), np.full(240 - rest, 90.0)))
+    motion = speed if kind is Kind.SPEED else np.floor(np.cumsum(speed) / 9.0)
+    form = replace(SPEED, kind=kind, voltage=CONSTANT)
+    found, said = drop_unpowered_end(logged(np.full(len(speed), 6.0), motion), form)
+    assert len(found) in (kept, kept + 1) and bool(said) == (kept < 360)
+    assert not said or said[0].endswith("It runs again later: to have all of it, log the voltage, too.")
+    assert drop_unpowered_end(logged(np.full(len(speed), 6.0), motion), replace(form, voltage="u"))[1] == []
