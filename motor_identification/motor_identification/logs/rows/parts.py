@@ -5,14 +5,16 @@ from collections.abc import Container
 from itertools import count, groupby
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import CsvForm
 from motor_identification.logs.rows.bursts import spread_bursts
-from motor_identification.logs.signals import Bools, Integers, Signals
+from motor_identification.logs.signals import Bools, Floats, Integers, Signals
 from motor_model.errors import RecordingError
 
 GAP = 20.0  # sample periods without a row: what was commanded meanwhile is not known any more
+AROUND = 21  # rows whose steps tell the sample period where a board became slow, as by the interrupts of its encoder
 BURSTS, FEWEST_ROWS = 10, 20  # gaps, and rows between them: so many short pieces are no recordings
 COMPUTERS = 10**18  # [ns] since 1970, in 2001: a later clock is a computer's
 LATE = 5.0  # sample periods from the first row to the second: it was logged before the recording began
@@ -91,7 +93,10 @@ def _lost_order(signals: Signals, back: Bools) -> int | None:
 
 def split_at_gaps(signals: Signals) -> tuple[Signals, list[str]]:
     """Begin a run after every gap in the rows."""
-    gap = _inside(signals, np.diff(signals.time, prepend=signals.time[:1]) > GAP * _period(signals))
+    steps = np.diff(signals.time, prepend=signals.time[:1])
+    gap = _inside(signals, steps > GAP * _period(signals))
+    if gap.any():
+        gap[gap] = steps[gap] > GAP * _periods_around(steps, np.flatnonzero(gap))
     if not gap.any():
         return signals, []
     spread, said = spread_bursts(signals, gap)
@@ -103,7 +108,7 @@ def split_at_gaps(signals: Signals) -> tuple[Signals, list[str]]:
         _check_clock(signals, number)
     if short or number >= MOST_RUNS:
         return signals, [f"Caution: {number} gaps of more than {GAP:g} sample periods; none is cut out."]
-    lost = float(np.diff(signals.time, prepend=signals.time[:1])[gap].sum()) * 1e-9
+    lost = float(steps[gap].sum()) * 1e-9
     parts = signals.split(gap)
     if not parts.runs:
         return signals, []
@@ -145,6 +150,12 @@ def _period(signals: Signals) -> float:
     steps = signals.steps()
     forward = steps[steps > 0]
     return float(np.median(forward)) if len(forward) else 0.0
+
+
+def _periods_around(steps: Integers, rows: Integers) -> Floats:
+    """[ns] the median of the steps, shape (K,), around each of some rows (L,)."""
+    padded = np.pad(steps, AROUND // 2, mode="edge")
+    return np.asarray(np.median(sliding_window_view(padded, AROUND)[rows], axis=1))
 
 
 def _inside(signals: Signals, marks: Bools) -> Bools:

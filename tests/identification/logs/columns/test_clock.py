@@ -100,3 +100,18 @@ def test_an_angle_as_even_as_the_clock_is_told_by_its_first_rows() -> None:
     assert find_clock({"coasting": coasting, "time": np.arange(300) * 0.005}) == "time", "it was fast at first"
     late = np.concatenate(([0.0, 0.001, 0.002, 0.003], 0.01 * np.arange(1.0, 300.0)))
     assert find_clock({"late": late}) == "late"
+
+
+def test_ticks_of_four_microseconds_are_no_milliseconds() -> None:
+    """As an Arduino's micros() counts, logged in a loop that is as fast as it can be."""
+    steps = np.resize([364.0, 368.0, 360.0, 404.0, 412.0, 364.0, 2576.0], 200)
+    unit, why = guess_time_unit(np.cumsum(steps))
+    assert unit == "us" and why.startswith("all are multiples of 4")
+    for other in (
+        np.cumsum(steps) + 1.0,
+        np.cumsum(np.resize([364.0, 368.0, 360.0], 200)),  # few kinds of steps
+        np.cumsum(steps)[:40],  # few rows
+        np.cumsum(np.resize([40.0, 48.0, 56.0, 64.0, 80.0, 88.0], 200)),  # all multiples of 8
+        np.cumsum(np.resize([4.0, 4.0, 4.0, 8.0, 12.0, 16.0, 20.0, 4.0], 200)),  # 250 Hz, of which rows are missing
+    ):
+        assert guess_time_unit(other)[0] == "ms"

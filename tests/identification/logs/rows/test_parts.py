@@ -111,3 +111,11 @@ def test_a_run_may_begin_when_the_rest_ends_but_not_before() -> None:
     check_rest(signals, rows, replace(FORM, rest_until=0.1))
     with pytest.raises(RecordingError, match=r"the run begins at t = 0\.1 s, before --rest-until 0\.11"):
         check_rest(signals, rows, replace(FORM, rest_until=0.11))
+
+
+@pytest.mark.parametrize(("slow", "runs"), [(20, 1), (2, 2)])
+def test_a_board_that_became_slow_lost_no_rows(slow: int, runs: int) -> None:
+    """The interrupts of its encoder leave a loop less time: rows come 25 times slower, and go on so."""
+    steps = np.concatenate((np.full(60, 0.01), np.full(slow, 0.25), np.full(30, 0.01)))
+    parts, said = split_at_gaps(timed(*np.cumsum(steps)))
+    assert len(parts.runs) == runs and len(said) == runs - 1
