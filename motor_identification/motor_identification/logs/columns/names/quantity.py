@@ -21,6 +21,7 @@ _ORDERS = frozenset(["command", "cmd", "commanded"])  # of a speed or a position
 _PULSES = frozenset(["esc", "signal", "pwm", "throttle", "pulse", "width", "command", "cmd", "output"])
 _TESTS = frozenset(["test", "trial"])  # whose numbers are no times, however evenly they go on
 _NUMBERS = frozenset(["no", "nr", "num", "number"])
+_ROWS = frozenset(["sample", "samples", "row", "rows"])
 _SENSORS = frozenset(["encoder", "enc", "qei"])
 AXES = frozenset(["yaw", "pitch", "roll"])
 _JOINT_FIELDS = frozenset(["position", "velocity", "effort"])
@@ -60,6 +61,11 @@ def tell_quantity(words: tuple[str, ...], unit: str) -> Quantity | None:
 def _numbers_tests(words: tuple[str, ...]) -> bool:
     """Whether a column numbers tests, `Test #`, `trial_no`."""
     return bool(_TESTS & set(words)) and set(words) <= _TESTS | _NUMBERS
+
+
+def may_number_rows(words: tuple[str, ...]) -> bool:
+    """Whether a name may be that of the rows' numbers: `Sample`, `sample_no`."""
+    return bool(_ROWS & set(words)) and set(words) <= _ROWS | _NUMBERS
 
 
 def is_speed_by_words(words: tuple[str, ...]) -> bool:
@@ -122,4 +128,6 @@ def _moves_by_unit(by_unit: Quantity, told: list[Quantity], words: tuple[str, ..
     """The unit says what it is; of a speed or an angle, the words whether it is measured."""
     if by_unit in MOVES and _ORDERS & set(words):
         return Quantity.REFERENCE
+    if by_unit is Quantity.POSITION and told == [Quantity.TIME]:  # `time_m`, a model's beside `time_r`, is no length
+        return Quantity.TIME
     return by_unit

@@ -26,6 +26,7 @@ from motor_identification.logs.rows.drive.constant_voltage import CONSTANT
 ANGLES = {(word,) for word in words_of("theta θ phi φ")}
 SLIDES = {(word,) for word in words_of("x z s")}  # as a cart's place is called beside its pendulum's angle
 SAME_MOTION = 0.9995  # correlation of a motion with itself in another unit, which is rounded
+SIBLINGS, ALIKE = 2, 0.9  # letters of a name, and the correlation, of a signal and what a model makes of it
 _BEST_FIRST = (Quantity.COUNT, Quantity.POSITION, Quantity.SPEED)  # what was counted is exact; a speed was computed
 
 
@@ -47,6 +48,7 @@ def find_motion_column(
             with_unit = [name for name in found if read_heading(name).unit]
             found = with_unit if quantity is Quantity.SPEED and len(with_unit) == 1 else found
         found += _list_slides(table, headings) if len(found) == 1 and found[0] in angles else []
+        found += _list_siblings(table, headings, found[0]) if len(found) == 1 else []
         if len(found) > 1:
             raise ask_motion(table, headings, quantity, found)
         if found:
@@ -65,6 +67,15 @@ def find_motion_column(
     if len(unnamed) > 1:
         raise ask_motion(table, headings, None, unnamed)
     raise lack_motion(table, time)
+
+
+def _list_siblings(table: Table, headings: Sequence[Heading], found: str) -> list[str]:
+    """Columns that only their last letter tells from the one found, `wr` beside `wm`, and whose numbers are as its."""
+    (word, *more) = read_heading(found).words or ("",)
+    able = [one.name for one in headings if one.quantity is None and len(one.words) == 1 and not more]
+    able = [name for name in able if len(word) == SIBLINGS and read_heading(name).words[0][:-1] == word[:-1]]
+    values = table.numbers(found)
+    return [name for name in able if name != found and correlate(values, table.numbers(name)) > ALIKE]
 
 
 def _list_slides(table: Table, headings: Sequence[Heading]) -> list[str]:

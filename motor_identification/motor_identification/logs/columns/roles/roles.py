@@ -21,6 +21,7 @@ from motor_identification.logs.columns.behaviour.second_reading import (
 from motor_identification.logs.columns.clock import find_clock, read_clock, runs_forward, since_1970
 from motor_identification.logs.columns.drive import drives, leave_out_idle_efforts
 from motor_identification.logs.columns.heading import Heading, read_heading, words_besides
+from motor_identification.logs.columns.names.quantity import may_number_rows
 from motor_identification.logs.columns.roles.candidates import is_numeric
 from motor_identification.logs.columns.roles.drive_column import find_drive_column, find_supply_column
 from motor_identification.logs.columns.roles.motion_column import find_motion_column
@@ -37,6 +38,7 @@ Floats = NDArray[np.float64]
 SAME_CLOCK = 0.9999  # correlation of two columns of times
 SAME_COLUMN = 0.99  # of the rows in motion, in which two columns of one signal are equal
 FEWEST_ROWS = 10  # that numbers of rows are told by
+MOSTLY_ON = 0.9  # of the rows, by which such a number goes on by 1: a few rows are lost
 UNEVEN = 0.2  # of their mean: steps of a column that may be a motor's way
 
 
@@ -58,7 +60,7 @@ def find_roles(table: Table, said: Said) -> Roles:
     Raises:
         RecordingError: a column is not there, or which one is meant cannot be told: the sentence asks for it.
     """
-    headings = [read_heading(name) for name in table.names if is_numeric(table, name)]
+    headings = [_tell_number(table, read_heading(name)) for name in table.names if is_numeric(table, name)]
     time = said.time or (None if said.steady else _time_of(table, headings, said) or _clock_left(table, headings, said))
     if said.time:
         table.column(said.time)
@@ -87,6 +89,14 @@ def find_roles(table: Table, said: Said) -> Roles:
         (*unlike, *undriven),
         findings,
     )
+
+
+def _tell_number(table: Table, heading: Heading) -> Heading:
+    """A heading, of OTHER where its column numbers the rows by its name and goes on by 1: that is no clock's rate."""
+    if heading.quantity is not None or not may_number_rows(heading.words):
+        return heading
+    steps = np.diff(table.numbers(heading.name))
+    return replace(heading, quantity=Quantity.OTHER) if np.mean(steps == 1.0) > MOSTLY_ON else heading
 
 
 def _time_of(table: Table, headings: Sequence[Heading], said: Said) -> str | None:

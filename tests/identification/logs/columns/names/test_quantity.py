@@ -2,7 +2,11 @@
 
 import pytest
 
-from motor_identification.logs.columns.names.quantity import is_pulse_of_esc, tell_quantity
+from motor_identification.logs.columns.names.quantity import (
+    is_pulse_of_esc,
+    may_number_rows,
+    tell_quantity,
+)
 from motor_identification.logs.columns.vocabulary import Quantity
 
 
@@ -26,6 +30,7 @@ from motor_identification.logs.columns.vocabulary import Quantity
         ("input power", "", Quantity.VOLTAGE),  # which may be one of volts as well as a share
         ("input command", "", Quantity.VOLTAGE),
         ("r speed", "", Quantity.SPEED),  # the right one
+        ("time", "m", Quantity.TIME),  # of a model: `time_m`
         ("yaw", "", Quantity.OTHER),
         ("yaw velocity", "", Quantity.SPEED),  # a joint
         ("foo", "", None),
@@ -41,3 +46,10 @@ def test_words_and_unit_tell_a_quantity(words: str, unit: str, quantity: Quantit
 )
 def test_pulses_to_a_controller_of_brushless_motors_are_told_from_what_it_measures(words: str, pulse: bool) -> None:
     assert is_pulse_of_esc(tuple(words.split())) is pulse
+
+
+@pytest.mark.parametrize(
+    ("words", "may"), [("sample", True), ("sample no", True), ("no", False), ("sample speed", False), ("n", False)]
+)
+def test_a_name_may_number_rows(words: str, may: bool) -> None:
+    assert may_number_rows(tuple(words.split())) is may

@@ -113,3 +113,11 @@ def test_a_carts_place_may_be_meant_beside_an_angle(angle: str, slide: str) -> N
     assert find_roles(pose, Said()).pairs == (Pair("", "v", angle),)
     assert find_roles(table(t="t", v="u", x="t", **{angle: "y"}), Said()).pairs == (Pair("", "v", angle),), "a clock"
     assert find_roles(table(t="t", v="u", **{f"motor {angle}": "y", slide: "n"}), Said()).pairs[0].motion != slide
+
+
+def test_a_models_speed_beside_the_measured_one_is_asked_for() -> None:
+    """`Wr` is real and `Wm` a model's; only one of them is a word for a speed."""
+    with pytest.raises(RecordingError, match="which column is the speed. Say --speed and one of Wm, Wr"):
+        find_roles(columns(t=TIME, u=DRIVE, Wr=FOLLOWS, Wm=1.1 * FOLLOWS), Said())
+    for others in ({"Wr": DRIVE[::-1].copy()}, {"x": FOLLOWS}):
+        assert find_roles(columns(t=TIME, u=DRIVE, Wm=FOLLOWS, **others), Said()).pairs[0].motion == "Wm"

@@ -197,3 +197,14 @@ def test_numbers_of_tests_are_no_times() -> None:
     sheet = {"Test #": np.arange(1.0, 201.0), "Applied Voltage (V)": DRIVE, "Tach Reading (RPM)": MOVED}
     assert find_roles(columns(**sheet, **{"Z_Score_Tach Reading (RPM)": MOVED - 3.0}), Said()).time is None
     assert find_roles(columns(**(sheet | {"Test #": DRIVE, "t": TIME})), Said()).time == "t"
+
+
+def test_numbers_of_samples_are_no_times() -> None:
+    """They do not tell how far rows are apart, and 1 ms would be as good as any other guess."""
+    number = np.arange(5055.0, 5255.0)
+    for name in ("Sample", "sample_no"):
+        sheet = {name: number, "PWM": DRIVE, "Motor Speed (RPM)": MOVED}
+        assert find_roles(columns(**sheet), Said()).time is None
+        assert find_roles(columns(**(sheet | {name: 10.0 * number})), Said()).time == name
+    lost = np.delete(np.arange(210.0), np.arange(10, 210, 20))  # a few rows were not logged
+    assert find_roles(columns(sample=lost, PWM=DRIVE, rpm=MOVED), Said()).time is None
