@@ -61,9 +61,12 @@ def describe_excitation(log: Log) -> list[str]:
         return [*lines, "The motor hardly moves: nothing can be identified from this."]
     unsigned = found.low >= 0.0 and ways == "both ways"
     if unsigned:
+        no_speed = (
+            "" if log.info.measurement is Measurement.SPEED else ", or a speed was taken for a position (--speed)"
+        )
         lines.append(
             "Caution: the voltage has no sign, and the motor runs both ways: a column with the direction is missing "
-            "(--direction COL), or something else drives it."
+            f"(--direction COL), or something else drives it{no_speed}."
         )
     missing = []
     if ways == "one way only":
@@ -96,12 +99,17 @@ def _column(run: Run, name: str) -> NDArray[np.float64]:
 
 def _levels(voltage: NDArray[np.float64], apart: float) -> int:
     """Different voltages, counted up to 20: those that last for a share of the rows, or all where many do not."""
-    bins = np.rint(voltage / max(apart, 1e-12))
-    values, counts = np.unique(bins, return_counts=True)
+    values = np.sort(voltage)
+    begins = [0]
+    while begins[-1] < len(values):
+        begins.append(int(np.searchsorted(values, values[begins[-1]] + max(apart, 1e-12), side="right")))
+    counts = np.diff(begins)
     lasts = counts >= min(FEW * len(voltage), 5)
     if np.sum(counts[~lasts]) >= SWEPT * len(voltage):  # a ramp, a sweep
         lasts[:] = True
-    return int(min(np.count_nonzero(values[lasts]), 20))
+    first, last = values[begins[:-1]], values[np.array(begins[1:]) - 1]
+    driven = (first > 0.5 * apart) | (last < -0.5 * apart)
+    return int(min(np.count_nonzero(driven & lasts), 20))
 
 
 def _voltages(found: Excitation) -> str:

@@ -94,3 +94,17 @@ def test_a_ramp_has_many_levels() -> None:
     assert "0 to 5 V in 20 levels and more" in lines[0] and not any("one voltage only" in line for line in lines)
     steps = np.concatenate([np.zeros(100), np.linspace(0.0, 5.0, 20), np.full(230, 5.0)])  # on the way to one voltage
     assert measure_excitation(log(steps, 20.0 * steps)).levels == 1
+
+
+def test_a_measured_voltage_that_varies_a_little_is_one_level() -> None:
+    """5.20, 5.24 and 5.28 V: whichever borders levels have, these are one."""
+    volts = np.concatenate(([0.0], np.resize([5.2, 5.24, 5.24, 5.28], 199)))
+    about, cannot = describe_excitation(log(volts, np.minimum(np.arange(200.0), 26.0), max_voltage=5.28))
+    assert "in a single level beside 0" in about and "kv and friction cannot be separated" in cannot
+
+
+def test_a_speed_that_was_taken_for_a_position_runs_both_ways() -> None:
+    speed = np.resize([20.0, -20.0], 100)
+    way = describe_excitation(log(np.full(100, 3.0), speed, measurement=Measurement.COUNTS))
+    assert "or a speed was taken for a position (--speed)." in way[1]
+    assert "taken for" not in describe_excitation(log(np.full(100, 3.0), speed))[1]
