@@ -13,6 +13,9 @@ TWICE = 2.0  # what no lag leaves of the correlation to 1, to what the best does
 HALF = 0.5  # of the voltage at which it stood: it runs later by that much and less
 LATE = 0.5  # of the time that it was driven and stood, from which on a lag all along explains the late start
 MOSTLY = 0.8  # of the rows with so little voltage, in which it runs
+# A motor that stood at so much of the largest voltage, and then turns round at half of it and less, and so often, is
+# not held by friction: to turn round it has to start again.
+NEARLY, TURNS = 0.9, 3
 
 
 def drop_unpowered_start(signals: Signals, form: CsvForm) -> tuple[Signals, list[str]]:
@@ -25,7 +28,8 @@ def drop_unpowered_start(signals: Signals, form: CsvForm) -> tuple[Signals, list
         little = (volts[still:] > 0.0) & (volts[still:] <= HALF * stood)
         if np.count_nonzero(little) < ROWS or np.mean(moves[still:][little]) < MOSTLY:
             continue
-        if _breaks_away(volts, still) or _is_as_late_later(signals.voltage[run], signals.motion[run], form.kind, still):
+        held = _breaks_away(volts, still) and not _turns_round(volts, signals.motion[run], form.kind, still, stood)
+        if held or _is_as_late_later(signals.voltage[run], signals.motion[run], form.kind, still):
             continue
         keep[run.start : run.start + still - 1] = False
         said.append(
@@ -43,6 +47,16 @@ def _breaks_away(volts: Floats, still: int) -> bool:
     """
     before, behind = volts[:still], volts[still : still + ROWS]
     return bool(np.max(behind) >= np.max(before) and np.argmax(before) >= still - ROWS)
+
+
+def _turns_round(volts: Floats, motion: Floats, kind: Kind, still: int, stood: float) -> bool:
+    """Whether a motor that stood at nearly all the voltage there is, shape (K,), starts the other way at half of it."""
+    if stood < NEARLY * float(np.max(volts)):
+        return False
+    speed = motion if kind is Kind.SPEED else np.diff(motion, prepend=motion[:1])
+    moving = still + np.flatnonzero(speed[still:])
+    turned = moving[1:][np.diff(np.sign(speed[moving])) != 0.0]
+    return int(np.count_nonzero(volts[turned] <= HALF * stood)) >= TURNS
 
 
 def _is_as_late_later(voltage: Floats, motion: Floats, kind: Kind, still: int) -> bool:

@@ -87,3 +87,19 @@ def test_a_controller_that_takes_its_voltage_away_at_the_first_count_had_its_sup
     volts[100] = 0.2
     found, said = drop_unpowered_start(late(100, volts), SPEED)
     assert (said != []) is told and (len(found) < len(volts)) is told
+
+
+@pytest.mark.parametrize("kind", [Kind.SPEED, Kind.COUNT])
+@pytest.mark.parametrize(("way", "told"), [(1.0, True), (0.0, False)])
+def test_a_sine_whose_motor_starts_just_before_its_top_had_no_supply(kind: Kind, way: float, told: bool) -> None:
+    """A motor that friction held up to the most voltage there is would not turn round at none; one way, it may run on.
+
+    way: whether it goes back, too.
+    """
+    k = np.arange(1500)
+    volts = 5.0 * np.sin(2.0 * np.pi * k / 400.0)
+    volts = volts if way else np.abs(volts)
+    signals = late(98, volts)
+    motion = signals.motion if kind is Kind.SPEED else np.floor(np.cumsum(signals.motion) / 2.0)
+    found, said = drop_unpowered_start(replace(signals, motion=motion), replace(SPEED, kind=kind))
+    assert (said != []) is told and (len(found) < len(k)) is told
