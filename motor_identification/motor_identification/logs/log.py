@@ -13,6 +13,7 @@ from motor_identification.logs.form import CsvForm, Kind, time_unit_size
 from motor_identification.logs.motion import Motion, read_motion
 from motor_identification.logs.rows.absurd_speeds import drop_absurd_beginnings
 from motor_identification.logs.rows.drive.coded_rows import drop_coded_rows
+from motor_identification.logs.rows.drive.late_start import drop_late_start
 from motor_identification.logs.rows.drive.logged_levels import split_between_levels
 from motor_identification.logs.rows.drive.unpowered_end import drop_unpowered_end
 from motor_identification.logs.rows.drive.unpowered_start import drop_unpowered_start
@@ -117,6 +118,7 @@ def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log
     signals, divided = divide_by_regular_rows(stamped, signals) if form.kind is Kind.SPEED else (signals, [])
     signals, first = drop_first_rows(signals)
     signals, unpowered = drop_unpowered_start(signals, form)
+    signals, late = drop_late_start(signals, form)
     signals, off = drop_unpowered_end(signals, form)
     signals, misread = drop_unread_values(signals, form)
     signals, unread = drop_unread_start(signals, form)
@@ -132,6 +134,7 @@ def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log
         *divided,
         *first,
         *unpowered,
+        *late,
         *off,
         *misread,
         *unread,
