@@ -15,6 +15,7 @@ from motor_identification.logs.rows.absurd_speeds import drop_absurd_beginnings
 from motor_identification.logs.rows.drive.coded_rows import drop_coded_rows
 from motor_identification.logs.rows.drive.late_start import drop_late_start
 from motor_identification.logs.rows.drive.logged_levels import split_between_levels
+from motor_identification.logs.rows.drive.lost_counts import caution_lost_counts
 from motor_identification.logs.rows.drive.unpowered_end import drop_unpowered_end
 from motor_identification.logs.rows.drive.unpowered_start import drop_unpowered_start
 from motor_identification.logs.rows.drive.unread_start import drop_unread_start
@@ -141,6 +142,7 @@ def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log
         *absurd,
         *gaps,
         *clock,
+        *caution_lost_counts(signals, form),
     ]
     check_rest(signals, table, form)
     check_steps(signals)
