@@ -145,7 +145,7 @@ EFFECTS = (
         "first-order lag of the drive (L/R)",
         "prbs",
         "the inductance (armature_inductance)",
-        (P("electrical_time_constant", "s", 0.0, 2e-3, 6.0, SAMPLE, True, starts=(0.1, 0.8), usual=(1e-5, 0.03)),),
+        (P("electrical_time_constant", "s", 0.0, 2e-3, 6.0, SAMPLE, True, starts=(0.1, 0.8), usual=(1e-5, 0.1)),),
     ),
     Effect(
         "torque_ripple",

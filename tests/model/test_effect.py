@@ -43,7 +43,7 @@ ABSOLUTE_ONES = {"ripple_phase", "eccentricity", "eccentricity_phase"}  # angles
         ("delay", 0.005, 28.0, (0.0, 1.0)),  # what is usual
         ("delay", 0.005, 3.0, (0.0, 0.3)),  # a tenth of the recording
         ("delay", 0.1, 700.0, (0.0, 4.0)),  # 40 samples
-        ("electrical_time_constant", 0.005, 28.0, (1e-5, 0.03)),
+        ("electrical_time_constant", 0.005, 28.0, (1e-5, 0.1)),
         ("electrical_time_constant", 0.1, 28.0, (1e-5, 0.6)),
         ("warm_up_time", 0.005, 6.0, (0.6, 120.0)),  # not within seconds
         ("warm_up_time", 0.005, 3600.0, (10.0, 72000.0)),

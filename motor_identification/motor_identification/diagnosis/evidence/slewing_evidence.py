@@ -71,20 +71,25 @@ def _guess_rate(changes: Floats, lag: float) -> float:
 
 
 def _find_likeliest(bare: Estimate, current: Model, guess: float, least: float) -> tuple[float, Estimate] | None:
-    """Find the rate [V/s] with which the motion is likeliest, about a guess, and its fit; None if not above `least`."""
+    """Find the rate [V/s] with which the motion is likeliest, about a guess, and its fit; None if not above `least`.
+
+    Near it each is judged under errors of its own: those of a long lag are as slow as what it leaves. Measured: under
+    those of one of 44 ms 140 V/s were likelier than the true 150, under their own less likely by 758.
+    """
     fits: dict[float, Estimate] = {}
 
-    def likelihood(rate: float) -> float:
+    def fit(rate: float) -> Estimate:
         fits[rate] = _fit_slewing(bare, current, rate)
-        return log_likelihood(list_error_data(fits[rate]), current.errors, current.lag)
+        return fits[rate]
 
-    most, best = max((likelihood(rate), rate) for rate in (guess / APART, guess, guess * APART))
+    tried = [guess / APART, guess, guess * APART]
+    most, best = max((log_likelihood(list_error_data(fit(rate)), current.errors, current.lag), rate) for rate in tried)
     if most <= least:
         return None
     within = log(best / APART), log(best * APART)
     options = {"xatol": PRECISION, "maxiter": MOST_FITS}
-    found = minimize_scalar(lambda x: -likelihood(exp(x)), bounds=within, method="bounded", options=options)
-    rate = exp(found.x) if -found.fun > most else best
+    found = minimize_scalar(lambda x: -_score(fit(exp(x)), current), bounds=within, method="bounded", options=options)
+    rate = exp(found.x) if -found.fun > _score(fits[best], current) else best
     return rate, fits[rate]
 
 

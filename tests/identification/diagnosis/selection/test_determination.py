@@ -28,6 +28,7 @@ from motor_identification.diagnosis.selection.determination import (
     is_needed,
     is_steady_beside_torque,
     is_undetermined,
+    may_never_limit,
 )
 from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
 from motor_identification.discrepancy.structure import Structure
@@ -249,6 +250,24 @@ def test_what_has_no_size_is_there_or_not(
     model = validate_model(hold_out, with_effect(estimate, effect, values))
     monkeypatch.setattr(candidate_model, "estimate_uncertainty", lambda *_: pytest.fail("its error was asked for"))
     assert not is_chance_size(effect, model)
+
+
+@pytest.mark.parametrize(
+    ("errors", "limits"),  # the standard error, in what is between the limit and the largest command
+    [(0.99 / thresholds.SURE_SIZE, True), (1.01 / thresholds.SURE_SIZE, False), (np.nan, True)],
+)
+def test_a_limit_that_may_lie_beyond_all_commands_is_chance(
+    monkeypatch: pytest.MonkeyPatch, errors: float, limits: bool
+) -> None:
+    """One of 1.46 ± 0.04 V was said to be missing in a motor of 1.5 V that has none."""
+    estimate, hold_out = fitted(limit_voltage=10.8)
+    model = validate_model(hold_out, with_effect(estimate, "voltage_limit", {"limit_voltage": 10.8}))
+    fit, most = model.whitened, max(float(np.abs(one.voltage).max()) for one in estimate.problem.recordings)
+    below = most - fit.theta[fit.problem.unknowns.names.index("limit_voltage")]
+    known = SimpleNamespace(errors=np.full(len(fit.theta), errors * below), not_identifiable=())
+    monkeypatch.setattr(candidate_model, "estimate_uncertainty", lambda *_: known)
+    assert may_never_limit("voltage_limit", model) is not limits and not may_never_limit("coulomb_friction", model)
+    assert find_undetermined(model) == (() if limits else ("voltage_limit",))
 
 
 def test_how_sure_a_model_is_is_asked_once(monkeypatch: pytest.MonkeyPatch) -> None:
