@@ -107,6 +107,31 @@ def test_each_timing_has_a_filter_of_its_own(monkeypatch: pytest.MonkeyPatch) ->
     assert found.filter is not None and found.filter.number == pytest.approx(0.8, abs=0.005)
 
 
+@pytest.mark.parametrize(("means", "found"), [((3,), True), ((4,), False), ((), False)])
+def test_a_mean_that_only_the_true_timing_speaks_for_is_found(
+    monkeypatch: pytest.MonkeyPatch, means: tuple[int, ...], found: bool
+) -> None:
+    """These numbers are of a tachogenerator's three rows' mean, in a motor of 12 ms under a random binary command.
+
+    Four rows' mean is likely by neither timing, and where values tell of no mean none is tried by another.
+    """
+    behind_mean = {ASSUMED: (-2.49, -2.5), OTHERS[0]: (-2.62, -1.4)}  # without and behind one of three
+
+    def measure(likelihood: Likelihood, passed: SpeedFilter | None, beside: Sequence[str] = ()) -> float:
+        likelihood.count = 1900
+        without, behind = behind_mean[likelihood.timing]
+        if passed is None:
+            return without + (0.2 if beside else 0.0)
+        return behind if passed == SpeedFilter(MEAN, 3) else -3.8
+
+    monkeypatch.setattr(Likelihood, "_measure", measure)
+    monkeypatch.setattr(smoothing, "find_means", lambda recordings: means)
+    recording = noisy(0.5, instant=True)
+    shaper = Shaper([recording], search_globally(make_problem([recording], ()), SearchConfig())[0], None)
+    timing = find_filter(shaper, (ASSUMED, OTHERS[0]))
+    assert timing == (replace(OTHERS[0], filter=SpeedFilter(MEAN, 3)) if found else ASSUMED)
+
+
 @pytest.mark.parametrize(
     ("kind", "number", "program"),
     [
