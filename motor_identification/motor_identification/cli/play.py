@@ -80,6 +80,7 @@ def _play(options: argparse.Namespace) -> int:
     from motor_identification.live.playback import Playback
     from motor_identification.live.playback_schedule import Schedule
     from motor_identification.live.publishers import Publishers
+    from motor_ros.graph.open_sockets import refuse_open_sockets
     from motor_ros.run import Interrupt, start_ros
 
     interrupt = Interrupt()
@@ -91,6 +92,7 @@ def _play(options: argparse.Namespace) -> int:
     start_ros([])
     try:
         node = rclpy.create_node(options.node_name, enable_rosout=False, start_parameter_services=False)
+        refuse_open_sockets(node.context.get_domain_id())
         publishers = Publishers(node, options.bag, bag, chosen, names)
         publishers.wait_for_subscribers(lambda: bool(interrupt))
         publishers.warn_of_others()

@@ -69,9 +69,11 @@ def _record(options: argparse.Namespace) -> int:
     interrupt = Interrupt()
     with BagWriter(options.bag, options.force) as writer:
         print(f"Recording {', '.join(topics or ['every topic'])} to {options.bag}; Ctrl-C ends it.", flush=True)
-        notes = _listen(writer, topics, expected, interrupt, options.duration)
-        if writer.message_count == 0:
-            writer.discard()
+        try:
+            notes = _listen(writer, topics, expected, interrupt, options.duration)
+        finally:
+            if writer.message_count == 0:
+                writer.discard()
     in_place("")
     for note in notes:
         print(note, file=sys.stderr)
@@ -94,11 +96,13 @@ def _listen(
 
     from motor_identification.live.recorder import Recorder
     from motor_ros.clocks.steady_timer import steady_timer
+    from motor_ros.graph.open_sockets import refuse_open_sockets
     from motor_ros.run import spin, start_ros
 
     start_ros([])
     try:
         node = rclpy.create_node("record", enable_rosout=False, start_parameter_services=False)
+        refuse_open_sockets(node.context.get_domain_id())
         recorder = Recorder(node, writer, topics, expected)
         steady_timer(node, 1.0, lambda: in_place(_progress(writer, recorder)))
         deadline = time.monotonic() + (duration or float("inf"))

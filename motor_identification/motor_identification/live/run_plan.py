@@ -14,6 +14,7 @@ from motor_identification.live.experiment_node import Driver
 from motor_identification.live.plant_watch import OUTPUT_OFF
 from motor_identification.live.recorder import Recorder
 from motor_model.errors import MotorError
+from motor_ros.graph.open_sockets import refuse_open_sockets
 from motor_ros.run import Interrupt, spin
 
 PATIENCE = 10.0  # [s] for a plant to appear
@@ -29,10 +30,11 @@ def drive(node: Driver, output: str, interrupt: Interrupt, replace: bool = False
     A bag that is not complete gets another name, so that the next attempt can have this one.
 
     Raises:
-        MotorError: no plant, one that falls silent, restarts, is switched off or too fast, another driver, or a bag
-            that cannot be written.
+        MotorError: the node is open to the network, no plant, one that falls silent, restarts, is switched off or too
+            fast, another driver, or a bag that cannot be written.
     """
     try:
+        refuse_open_sockets(node.context.get_domain_id())
         check_new_bag(Path(output), replace)
         _wait_for_plant(node, interrupt)
         return 130 if interrupt else _record(node, BagWriter(output, replace), interrupt)

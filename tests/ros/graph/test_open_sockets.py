@@ -6,8 +6,12 @@ from pathlib import Path
 
 import pytest
 from patience import PATIENCE
+from rclpy.serialization import serialize_message
+from std_msgs.msg import Float64
+from tiers import keep_fast
 from workbench import ENVIRONMENT, program
 
+from motor_identification.bag import BagWriter
 from motor_ros.graph.open_sockets import count_open
 from motor_ros.loopback import CLOSED, PROFILE, RANGE
 
@@ -33,14 +37,12 @@ def test_own_sockets_on_all_addresses_at_a_domains_ports_are_counted() -> None:
     assert count_open(3, tables, []) == 0 and count_open(5, tables, ["1", "2"]) == 0
 
 
-@pytest.mark.skipif(not os.path.exists("/proc/self/net/udp"), reason="the kernel does not list sockets")
-@pytest.mark.parametrize("wrong", WRONG)
-def test_no_plant_starts_with_a_profile_that_leaves_it_open(wrong: str, tmp_path: Path) -> None:
-    """Fast DDS logged an error for the first, and went on with a motor that everybody on the network could drive."""
+def run(tmp_path: Path, wrong: str, package: str, command: str, *arguments: object) -> None:
+    """Run one of our programs with a profile that leaves it open, and see it refuse."""
     profile = tmp_path / "own.xml"
     profile.write_text(WRONG[wrong])
     done = subprocess.run(
-        [program("motor_sim", "motor_sim")],
+        [program(package, command), *map(str, arguments)],
         env=ENVIRONMENT | {PROFILE: str(profile), RANGE: "LOCALHOST"},
         capture_output=True,
         text=True,
@@ -48,3 +50,28 @@ def test_no_plant_starts_with_a_profile_that_leaves_it_open(wrong: str, tmp_path
     )
     assert done.returncode == 1 and "listens to every network, not only on this machine: Fast DDS" in done.stderr
     assert str(profile) in done.stderr and "Traceback" not in done.stderr
+
+
+listed = pytest.mark.skipif(not os.path.exists("/proc/self/net/udp"), reason="the kernel does not list sockets")
+
+
+@listed
+@pytest.mark.parametrize("wrong", keep_fast(list(WRONG), "a tag that there is none of"))
+def test_no_plant_starts_with_a_profile_that_leaves_it_open(wrong: str, tmp_path: Path) -> None:
+    """Fast DDS logged an error for the first, and went on with a motor that everybody on the network could drive."""
+    run(tmp_path, wrong, "motor_sim", "motor_sim")
+
+
+@listed
+@pytest.mark.parametrize("command", keep_fast(["play", "record", "experiment"], "play"))
+def test_no_command_that_makes_a_node_of_its_own_sends_to_every_network(command: str, tmp_path: Path) -> None:
+    bag = tmp_path / "bag"
+    with BagWriter(bag) as writer:
+        writer.write(writer.topic("/x", "std_msgs/msg/Float64"), 1, serialize_message(Float64(data=1.0)))
+    arguments = {
+        "play": [bag],
+        "record": [tmp_path / "new", "/x"],
+        "experiment": ["step", "--output", tmp_path / "new"],
+    }
+    run(tmp_path, "a tag that there is none of", "motor_identification", command, *arguments[command])
+    assert not (tmp_path / "new").exists()
