@@ -10,7 +10,7 @@ Peers and servers that the environment names would be told of a node all the sam
 """
 
 import os
-from collections.abc import MutableMapping
+from collections.abc import Mapping, MutableMapping
 from pathlib import Path
 from xml.parsers.expat import ExpatError, ParserCreate
 
@@ -75,8 +75,13 @@ def is_profile(path: str) -> bool:
     return tags[0] in ROOTS and not unknown and b"\0" not in data
 
 
+def reads_profiles(environment: Mapping[str, str]) -> bool:
+    """Tell whether the middleware is one of Fast DDS's, as it is where none is named: no other reads its profiles."""
+    return (environment.get(MIDDLEWARE) or "rmw_fastrtps_cpp").startswith("rmw_fastrtps")
+
+
 def _find_other_middleware(environment: MutableMapping[str, str]) -> str:
     """Say that a middleware is none of Fast DDS's, unless Cyclone DDS has a configuration of its own; "" otherwise."""
-    name = environment.get(MIDDLEWARE) or "rmw_fastrtps_cpp"
+    name = environment.get(MIDDLEWARE, "")
     configured = "cyclonedds" in name and bool(environment.get("CYCLONEDDS_URI"))
-    return "" if name.startswith("rmw_fastrtps") or configured else OTHER.format(name)
+    return "" if reads_profiles(environment) or configured else OTHER.format(name)

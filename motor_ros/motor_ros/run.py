@@ -154,7 +154,7 @@ def run(
     try:
         start_ros(args)
         node = _created(create)
-        refuse_open_sockets(node.context.get_domain_id())
+        refuse_open_sockets(node)
         check_parameter_requests(node)
         for warning in unknown_parameters(node, program.rows if program else ()):
             node.get_logger().warning(warning)

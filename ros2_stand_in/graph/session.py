@@ -12,6 +12,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 
 from motor_model.errors import MotorError
+from motor_ros.graph.open_sockets import refuse_open_sockets
 from motor_ros.run import LOOK_FOR_SIGNALS_EVERY, Interrupt, start_ros
 
 RCLError = rclpy_implementation.RCLError
@@ -64,7 +65,8 @@ def session(node_name: str | None = None) -> Iterator[Session]:
     """Start ROS and a node whose name hides it from lists; both end with the block.
 
     Raises:
-        MotorError: ROS cannot start, such as for a ROS_DOMAIN_ID that is not a number, or a node name with a slash.
+        MotorError: ROS cannot start, such as for a ROS_DOMAIN_ID that is not a number, or a node name with a slash; or
+            it is open to the network.
     """
     interrupt = Interrupt()
     try:
@@ -74,6 +76,7 @@ def session(node_name: str | None = None) -> Iterator[Session]:
         raise MotorError(f"ROS does not start: {' '.join(str(error).split())}.") from error
     ros = Session(node, interrupt)
     try:
+        refuse_open_sockets(node)
         yield ros
     finally:
         ros.close()

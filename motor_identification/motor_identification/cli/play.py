@@ -92,7 +92,7 @@ def _play(options: argparse.Namespace) -> int:
     start_ros([])
     try:
         node = rclpy.create_node(options.node_name, enable_rosout=False, start_parameter_services=False)
-        refuse_open_sockets(node.context.get_domain_id())
+        refuse_open_sockets(node)
         publishers = Publishers(node, options.bag, bag, chosen, names)
         publishers.wait_for_subscribers(lambda: bool(interrupt))
         publishers.warn_of_others()

@@ -102,7 +102,7 @@ def _listen(
     start_ros([])
     try:
         node = rclpy.create_node("record", enable_rosout=False, start_parameter_services=False)
-        refuse_open_sockets(node.context.get_domain_id())
+        refuse_open_sockets(node)
         recorder = Recorder(node, writer, topics, expected)
         steady_timer(node, 1.0, lambda: in_place(_progress(writer, recorder)))
         deadline = time.monotonic() + (duration or float("inf"))

@@ -34,7 +34,7 @@ def drive(node: Driver, output: str, interrupt: Interrupt, replace: bool = False
             fast, another driver, or a bag that cannot be written.
     """
     try:
-        refuse_open_sockets(node.context.get_domain_id())
+        refuse_open_sockets(node)
         check_new_bag(Path(output), replace)
         _wait_for_plant(node, interrupt)
         return 130 if interrupt else _record(node, BagWriter(output, replace), interrupt)

@@ -10,10 +10,13 @@ import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+from rclpy.node import Node
+
 from motor_model.errors import MotorError
-from motor_ros.loopback import MIDDLEWARE, OPENED_RANGES, PROFILE, RANGE
+from motor_ros.loopback import OPENED_RANGES, PROFILE, RANGE, reads_profiles
 
 FIRST, EACH = 7400, 250  # ports: the first domain's first, and how many a domain has
+TABLES = Path("/proc/self/net/udp"), Path("/proc/self/net/udp6")
 LISTENING = 2  # sockets of a participant, for discovery and for messages; one alone may be there to send, on any port
 REFUSED = (
     "This node listens to every network, not only on this machine: Fast DDS does not understand the profile {}, or it "
@@ -22,23 +25,21 @@ REFUSED = (
 )
 
 
-def refuse_open_sockets(domain: int, environment: Mapping[str, str] = os.environ) -> None:
-    """Refuse to go on with a node of a domain that can be reached from elsewhere, where the user has not opened it.
+def refuse_open_sockets(node: Node, environment: Mapping[str, str] = os.environ) -> None:
+    """Refuse to go on with a node that can be reached from elsewhere, where the user has not opened it.
 
     Where the kernel does not tell, and of another middleware than Fast DDS's, nothing is known, and nothing said.
 
     Raises:
         MotorError: its sockets are open.
     """
-    ours = (environment.get(MIDDLEWARE) or "rmw_fastrtps_cpp").startswith("rmw_fastrtps")
-    if not ours or environment.get(RANGE) in OPENED_RANGES:
+    if not reads_profiles(environment) or environment.get(RANGE) in OPENED_RANGES:
         return
     try:
-        tables = [Path(f"/proc/self/net/{name}").read_text() for name in ("udp", "udp6")]
         own = _own_sockets()
     except OSError:
         return
-    if count_open(domain, tables, own) >= LISTENING:
+    if count_open(node.context.get_domain_id(), map(_read, TABLES), own) >= LISTENING:
         raise MotorError(REFUSED.format(environment.get(PROFILE, "")))
 
 
@@ -49,6 +50,14 @@ def count_open(domain: int, tables: Iterable[str], own: Iterable[str]) -> int:
     mine = set(own)
     open_ones = (row[1].split(":") for row in rows if row[9] in mine)
     return sum(not address.strip("0") and int(port, 16) in ports for address, port in open_ones)
+
+
+def _read(table: Path) -> str:
+    """Read a table of the kernel's; "" where there is none, as of a kernel without IPv6."""
+    try:
+        return table.read_text()
+    except OSError:
+        return ""
 
 
 def _own_sockets() -> set[str]:

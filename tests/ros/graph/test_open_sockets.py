@@ -1,19 +1,27 @@
 """A node that can be reached from elsewhere, though nobody has opened the network, does not start."""
 
 import os
+import socket
 import subprocess
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 import pytest
 from patience import PATIENCE
+from rclpy.node import Node
 from rclpy.serialization import serialize_message
 from std_msgs.msg import Float64
 from tiers import keep_fast
 from workbench import ENVIRONMENT, program
 
 from motor_identification.bag import BagWriter
-from motor_ros.graph.open_sockets import count_open
-from motor_ros.loopback import CLOSED, PROFILE, RANGE
+from motor_model.errors import MotorError
+from motor_ros.graph import open_sockets
+from motor_ros.graph.open_sockets import count_open, refuse_open_sockets
+from motor_ros.loopback import CLOSED, MIDDLEWARE, PROFILE, RANGE
+
+LAUNCHER = Path(__file__).parents[3] / "ros2_stand_in" / "ros2"
 
 HEAD = "sl local_address rem_address st tx:rx tr:when retrnsmt uid timeout inode\n"
 OURS = CLOSED.read_text()
@@ -37,12 +45,32 @@ def test_own_sockets_on_all_addresses_at_a_domains_ports_are_counted() -> None:
     assert count_open(3, tables, []) == 0 and count_open(5, tables, ["1", "2"]) == 0
 
 
+@pytest.mark.skipif(not os.path.exists("/proc/self/fd"), reason="the kernel does not list sockets")
+def test_one_table_is_enough(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """A kernel without IPv6 has none of its sockets; the check then said nothing of the others either."""
+    node = cast(Node, SimpleNamespace(context=SimpleNamespace(get_domain_id=lambda: 3)))
+    monkeypatch.setattr(open_sockets, "TABLES", (tmp_path / "udp", tmp_path / "udp6"))
+    refuse_open_sockets(node, {})
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as one:
+        inode = str(os.fstat(one.fileno()).st_ino)
+        (tmp_path / "udp").write_text(table(("0" * 8, 8150, inode), ("0" * 8, 8160, inode)))
+        with pytest.raises(MotorError, match="listens to every network"):
+            refuse_open_sockets(node, {})
+        for opened in ({RANGE: "SUBNET"}, {MIDDLEWARE: "rmw_cyclonedds_cpp"}):
+            refuse_open_sockets(node, opened)
+
+
 def run(tmp_path: Path, wrong: str, package: str, command: str, *arguments: object) -> None:
     """Run one of our programs with a profile that leaves it open, and see it refuse."""
+    launch(tmp_path, wrong, program(package, command), *arguments)
+
+
+def launch(tmp_path: Path, wrong: str, *command: object) -> None:
+    """Run a command so."""
     profile = tmp_path / "own.xml"
     profile.write_text(WRONG[wrong])
     done = subprocess.run(
-        [program(package, command), *map(str, arguments)],
+        list(map(str, command)),
         env=ENVIRONMENT | {PROFILE: str(profile), RANGE: "LOCALHOST"},
         capture_output=True,
         text=True,
@@ -75,3 +103,8 @@ def test_no_command_that_makes_a_node_of_its_own_sends_to_every_network(command:
     }
     run(tmp_path, "a tag that there is none of", "motor_identification", command, *arguments[command])
     assert not (tmp_path / "new").exists()
+
+
+@listed
+def test_the_stand_in_of_ros2_does_not_send_to_every_network_either(tmp_path: Path) -> None:
+    launch(tmp_path, "a tag that there is none of", LAUNCHER, "topic", "list")
