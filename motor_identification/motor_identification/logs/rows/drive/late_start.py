@@ -6,8 +6,8 @@ changes, which friction does not let it, and much later than after any other ste
 
 import numpy as np
 
-from motor_identification.logs.form import CsvForm, Kind
-from motor_identification.logs.rows.drive.unpowered_start import ROWS
+from motor_identification.logs.form import CsvForm
+from motor_identification.logs.rows.drive.unpowered_start import ROWS, list_advances
 from motor_identification.logs.signals import Floats, Integers, Signals
 
 LATER = 5.0  # times the rows in which the slowest later step is answered
@@ -26,7 +26,7 @@ def drop_late_start(signals: Signals, form: CsvForm) -> tuple[Signals, list[str]
     keep, said = np.ones(len(signals), np.bool_), []
     for run in signals.runs.values():
         volts, motion = signals.voltage[run], signals.motion[run]
-        speed = motion if form.kind is Kind.SPEED else np.diff(motion, prepend=motion[:1])
+        speed = list_advances(motion, form.kind)
         still = int(np.argmax(speed != 0.0))
         steps = np.flatnonzero(np.diff(volts)) + 1
         if still < ROWS or volts[0] == 0.0 or (len(steps) and steps[0] <= still + ROWS) or len(steps) < FEWEST_STEPS:

@@ -9,6 +9,7 @@ from motor_identification.logs.rows.drive.unpowered_start import (
     MOSTLY,
     ROWS,
     find_standing_voltage,
+    list_advances,
     mark_motion,
 )
 from motor_identification.logs.signals import Bools, Floats, Signals
@@ -63,7 +64,7 @@ def drop_unpowered_end(signals: Signals, form: CsvForm) -> tuple[Signals, list[s
 
 def _travel(motion: Floats, kind: Kind) -> Floats:
     """The way of each row, shape (K,), without its sign."""
-    return np.abs(motion if kind is Kind.SPEED else np.diff(motion, prepend=motion[:1]))
+    return np.abs(list_advances(motion, kind))
 
 
 def _runs_out(little: Bools, travel: Floats) -> bool:

@@ -53,7 +53,7 @@ def _turns_round(volts: Floats, motion: Floats, kind: Kind, still: int, stood: f
     """Whether a motor that stood at nearly all the voltage there is, shape (K,), starts the other way at half of it."""
     if stood < NEARLY * float(np.max(volts)):
         return False
-    speed = motion if kind is Kind.SPEED else np.diff(motion, prepend=motion[:1])
+    speed = list_advances(motion, kind)
     moving = still + np.flatnonzero(speed[still:])
     turned = moving[1:][np.diff(np.sign(speed[moving])) != 0.0]
     return int(np.count_nonzero(volts[turned] <= HALF * stood)) >= TURNS
@@ -79,6 +79,11 @@ def find_standing_voltage(volts: Floats) -> float:
     if np.count_nonzero(driven) < ROWS or np.count_nonzero(np.diff(driven)) < FEWEST_CHANGES:
         return 0.0
     return float(np.sort(driven)[-ROWS])
+
+
+def list_advances(motion: Floats, kind: Kind) -> Floats:
+    """List by how much each row (K,) of a motion says that the motor turns: speeds, or the way since the row before."""
+    return motion if kind is Kind.SPEED else np.diff(motion, prepend=motion[:1])
 
 
 def mark_motion(motion: Floats, kind: Kind) -> Bools:
