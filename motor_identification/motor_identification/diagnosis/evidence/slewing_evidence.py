@@ -47,8 +47,7 @@ def find_slewing(effect: str, without: Model, current: Model) -> Structure | Non
     likeliest = _find_likeliest(bare, current, _guess_rate(changes, late), having - 0.5 * abs(having - lacking))
     if likeliest is None:
         return None
-    rate, slewing = likeliest
-    found = _score(slewing, current)
+    rate, slewing, found = likeliest
     if found <= having + thresholds.SLEWING_GAIN:
         return None
     both = _score(_fit_slewing(current.estimate, current, rate), current)
@@ -70,8 +69,8 @@ def _guess_rate(changes: Floats, lag: float) -> float:
     return float(np.sum(changes**2) / (2.0 * lag * np.sum(changes)))
 
 
-def _find_likeliest(bare: Estimate, current: Model, guess: float, least: float) -> tuple[float, Estimate] | None:
-    """Find the rate [V/s] with which the motion is likeliest, about a guess, and its fit; None if not above `least`.
+def _find_likeliest(bare: Estimate, current: Model, guess: float, least: float) -> tuple[float, Estimate, float] | None:
+    """Find the rate [V/s] with which the motion is likeliest, about a guess, its fit and score; None not above least.
 
     Near it each is judged under errors of its own: those of a long lag are as slow as what it leaves. Measured: under
     those of one of 44 ms 140 V/s were likelier than the true 150, under their own less likely by 758.
@@ -89,8 +88,8 @@ def _find_likeliest(bare: Estimate, current: Model, guess: float, least: float) 
     within = log(best / APART), log(best * APART)
     options = {"xatol": PRECISION, "maxiter": MOST_FITS}
     found = minimize_scalar(lambda x: -_score(fit(exp(x)), current), bounds=within, method="bounded", options=options)
-    rate = exp(found.x) if -found.fun > _score(fits[best], current) else best
-    return rate, fits[rate]
+    score, rate = max((_score(fits[best], current), best), (-found.fun, exp(found.x)))
+    return rate, fits[rate], score
 
 
 def _fit_slewing(estimate: Estimate, current: Model, rate: float) -> Estimate:
