@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from types import SimpleNamespace
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 
@@ -85,6 +85,11 @@ def stub_model(
 def rescored(model: Model, **changed: object) -> Model:
     """The model with other parts of its score."""
     return replace(model, score=replace(model.score, **changed))
+
+
+def same_errors(error: float) -> Any:
+    """The same standard error of everything."""
+    return SimpleNamespace(errors=np.full(20, error))
 
 
 def short_by(slots: Sequence[float], gap: float = 1.0, slot: float = 0.3) -> Model:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from diagnosed import fitted, with_effect
 from plant import profiles, record
-from stub_models import stub_model, with_effects
+from stub_models import same_errors, stub_model, with_effects
 
 from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis import candidate_model, thresholds
@@ -16,27 +16,23 @@ from motor_identification.diagnosis.candidate_fit import validate_model
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.result import Verdict
+from motor_identification.diagnosis.selection import chance as chance_of
 from motor_identification.diagnosis.selection import determination
+from motor_identification.diagnosis.selection.chance import has_vague_instant, is_chance_size
 from motor_identification.diagnosis.selection.determination import (
     drop_undetermined,
     drop_undetermined_at_once,
-    find_blindness,
     find_limits_hit,
     find_undetermined,
-    has_vague_instant,
-    is_chance_size,
     is_needed,
     is_steady_beside_torque,
     is_undetermined,
-    may_never_limit,
 )
 from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.parameter_space import map_theta
-from motor_identification.estimation.whitened_fit import WhitenedFit
-from motor_identification.measurement.time_blocks import TimeBlocks, compute_block_length
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter
 from motor_identification.recording import check
@@ -45,6 +41,12 @@ from motor_model.effects import EFFECT_BY_NAME
 from motor_model.parameters import PAPER_KA, PAPER_KV
 
 SILENT = ProgressReporter(lambda stage: None, lambda: False)
+
+
+def give_sizes_by_chance(monkeypatch: pytest.MonkeyPatch, chance: bool) -> None:
+    """Let every size be one by chance, or none."""
+    for module in (determination, chance_of):
+        monkeypatch.setattr(module, "is_chance_size", lambda *_: chance)
 
 
 @pytest.mark.parametrize(
@@ -89,37 +91,6 @@ def test_what_a_recording_does_not_determine_is_dropped_and_named() -> None:
 
 
 @pytest.mark.parametrize(
-    ("effect", "values"),
-    [
-        ("load_step", {"step_voltage": 0.1, "step_time": 0.3}),
-        ("coulomb_friction", {"ks": 0.3}),
-        ("transport_delay", {"delay": 1.5e-3}),
-    ],
-)
-@pytest.mark.parametrize(("sigma", "chance"), [(0.99, True), (1.01, False)])
-def test_a_size_within_its_errors_is_chance(
-    monkeypatch: pytest.MonkeyPatch, effect: str, values: dict[str, float], sigma: float, chance: bool
-) -> None:
-    estimate, hold_out = fitted()
-    model = validate_model(hold_out, with_effect(estimate, effect, values))
-    at = model.whitened.problem.unknowns.names.index(next(iter(values)))
-    errors = np.full(len(model.whitened.theta), abs(model.whitened.theta[at]) / (sigma * thresholds.SURE_SIZE))
-    monkeypatch.setattr(candidate_model, "estimate_uncertainty", lambda *_: SimpleNamespace(errors=errors))
-    assert is_chance_size(effect, model) == chance
-
-
-@pytest.mark.parametrize(("sigma", "chance"), [(0.99, True), (1.01, False), (None, True)])
-def test_what_a_fit_beside_the_torque_is_sure_of_is_no_chance(sigma: float | None, chance: bool) -> None:
-    """By encoders alone its size is one standard error; None: more than a random torque is left."""
-    estimate, hold_out = fitted()
-    model = validate_model(hold_out, with_effect(estimate, "coulomb_friction", {"ks": 0.3}))
-    size = model.whitened.theta[2]
-    told = None if sigma is None else (model.whitened, known(size / (sigma * thresholds.SURE_BESIDE_TORQUE)))
-    stub = SimpleNamespace(whitened=model.whitened, held=model.held, uncertainty=known(size), told_beside_torque=told)
-    assert is_chance_size("coulomb_friction", cast(Model, stub)) is chance
-
-
-@pytest.mark.parametrize(
     ("sigma", "steadiness", "effect", "rivals", "told"),
     [
         (1.01, 1.01 * likelihood_threshold(), "coulomb_friction", (), True),
@@ -145,7 +116,7 @@ def test_what_the_motion_speaks_for_all_the_time_is_told_beside_a_torque(
     own = EFFECT_BY_NAME[effect].parameters[0]
     problem = SimpleNamespace(unknowns=SimpleNamespace(names=(own.name,)))
     fit, limit = SimpleNamespace(problem=problem, theta=np.array([own.off + 0.3])), thresholds.STEADY_BESIDE_TORQUE
-    beside = None if sigma is None else (fit, known(0.3 / (sigma * limit)))
+    beside = None if sigma is None else (fit, same_errors(0.3 / (sigma * limit)))
     step = cast(SelectionStep, SimpleNamespace(found=SimpleNamespace(effect=effect), rivals=rivals))
 
     def steady(unknown: tuple[str, ...] = (), beside_torque: bool = True) -> bool:
@@ -158,17 +129,12 @@ def test_what_the_motion_speaks_for_all_the_time_is_told_beside_a_torque(
         return is_steady_beside_torque(step, selection, selection)
 
     monkeypatch.setattr(CandidateTest, "steadiness", steadiness)
-    monkeypatch.setattr(determination, "is_chance_size", lambda *_: True)
+    give_sizes_by_chance(monkeypatch, True)
     assert steady() is told
     assert not steady(beside_torque=False)
-    monkeypatch.setattr(determination, "is_chance_size", lambda *_: False)
+    give_sizes_by_chance(monkeypatch, False)
     assert not steady()  # it ended at a limit of the search
     assert steady((own.name,)) is (told and sigma is not None)
-
-
-def known(error: float) -> Any:
-    """The same standard error of everything."""
-    return SimpleNamespace(errors=np.full(20, error))
 
 
 @pytest.mark.parametrize(("share", "vague"), [(0.99, False), (1.01, True), (np.nan, False)])
@@ -187,87 +153,6 @@ def test_a_load_that_may_come_on_at_any_time_is_none(
     assert find_undetermined(model) == (("load_step",) if vague else ())
     worse = stub_model(10.0 * model.held.gap, 0.0)  # which a torque that was learned may leave
     assert is_needed(found_step(model, model, "load_step"), model, worse) != vague
-
-
-@pytest.mark.parametrize("block", range(4, 8))
-def test_an_instant_in_what_no_fit_may_see_is_placed_no_better(block: int) -> None:
-    """A load step came there: no fit sees when, and what was before and after tells its size."""
-    estimate, _ = fitted()
-    problem = estimate.problem.keeping_out(TimeBlocks(4, stretch=2.0))
-    length = compute_block_length(problem.intervals[0], problem.sample_period, 2.0)
-    assert length > thresholds.VAGUE_INSTANT * problem.recordings[0].duration
-    fit, hidden = (
-        with_effect(estimate.on(problem), "load_step", {"step_voltage": 0.3, "step_time": 1.0}),
-        block % 4 == 3,
-    )
-    at = fit.problem.unknowns.names.index("step_time")
-    fit.theta[at] = (block + 0.5) * length
-    assert find_blindness(cast(WhitenedFit, fit), at) == (length if hidden else 0.0)
-    for share, vague in ((0.99, not hidden), (1.01, True)):
-        errors = np.full(len(fit.theta), share * length)
-        model = cast(Model, SimpleNamespace(whitened=fit, uncertainty=SimpleNamespace(errors=errors)))
-        assert has_vague_instant("load_step", model) is vague
-
-
-def test_an_instant_that_one_of_several_recordings_places_is_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    errors = np.array([0.9, 1.1]) * thresholds.VAGUE_INSTANT
-    known = SimpleNamespace(errors=errors)
-    model = cast(
-        Model, SimpleNamespace(whitened=SimpleNamespace(problem=SimpleNamespace(kept_out=None)), uncertainty=known)
-    )
-    monkeypatch.setattr(determination, "list_instant_columns", lambda *_: [(0, 1.0), (1, 1.0)])
-    assert not has_vague_instant("load_step", model)
-    errors[0] = errors[1]
-    assert has_vague_instant("load_step", model)
-
-
-@pytest.mark.parametrize(
-    ("effect", "values", "chance"),
-    [
-        ("torque_ripple", {"ripple_voltage": 0.4, "ripple_cycles": 34.5, "ripple_phase": 0.5}, True),
-        ("load_step", {"step_voltage": 0.1, "step_time": 0.3}, False),  # which all that it has is asked of
-    ],
-)
-def test_a_line_of_unknown_size_is_chance(
-    monkeypatch: pytest.MonkeyPatch, effect: str, values: dict[str, float], chance: bool
-) -> None:
-    """How often it comes back is determined of any line."""
-    estimate, hold_out = fitted()
-    model = validate_model(hold_out, with_effect(estimate, effect, values))
-    errors = np.full(len(model.whitened.theta), np.nan)
-    monkeypatch.setattr(candidate_model, "estimate_uncertainty", lambda *_: SimpleNamespace(errors=errors))
-    assert is_chance_size(effect, model) == chance
-
-
-@pytest.mark.parametrize(
-    ("effect", "values"),
-    [("armature_inductance", {"electrical_time_constant": 1e-6}), ("voltage_limit", {"limit_voltage": 11.0})],
-)
-def test_what_has_no_size_is_there_or_not(
-    monkeypatch: pytest.MonkeyPatch, effect: str, values: dict[str, float]
-) -> None:
-    estimate, hold_out = fitted()
-    model = validate_model(hold_out, with_effect(estimate, effect, values))
-    monkeypatch.setattr(candidate_model, "estimate_uncertainty", lambda *_: pytest.fail("its error was asked for"))
-    assert not is_chance_size(effect, model)
-
-
-@pytest.mark.parametrize(
-    ("errors", "limits"),  # the standard error, in what is between the limit and the largest command
-    [(0.99 / thresholds.SURE_SIZE, True), (1.01 / thresholds.SURE_SIZE, False), (np.nan, True)],
-)
-def test_a_limit_that_may_lie_beyond_all_commands_is_chance(
-    monkeypatch: pytest.MonkeyPatch, errors: float, limits: bool
-) -> None:
-    """One of 1.46 ± 0.04 V was said to be missing in a motor of 1.5 V that has none."""
-    estimate, hold_out = fitted(limit_voltage=10.8)
-    model = validate_model(hold_out, with_effect(estimate, "voltage_limit", {"limit_voltage": 10.8}))
-    fit, most = model.whitened, max(float(np.abs(one.voltage).max()) for one in estimate.problem.recordings)
-    below = most - fit.theta[fit.problem.unknowns.names.index("limit_voltage")]
-    known = SimpleNamespace(errors=np.full(len(fit.theta), errors * below), not_identifiable=())
-    monkeypatch.setattr(candidate_model, "estimate_uncertainty", lambda *_: known)
-    assert may_never_limit("voltage_limit", model) is not limits and not may_never_limit("coulomb_friction", model)
-    assert find_undetermined(model) == (() if limits else ("voltage_limit",))
 
 
 def test_how_sure_a_model_is_is_asked_once(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -313,7 +198,7 @@ def test_a_step_by_chance_is_not_named(monkeypatch: pytest.MonkeyPatch) -> None:
     before = validate_model(hold_out, estimate)
     after = validate_model(hold_out, with_effect(estimate, "load_step", {"step_voltage": 1e-4, "step_time": 0.3}))
     selection = Selection((found_step(before, after, "load_step"),), after, hold_out, 1)
-    monkeypatch.setattr(determination, "is_chance_size", lambda effect, model: True)
+    give_sizes_by_chance(monkeypatch, True)
     left, names = drop_undetermined(selection, SILENT)
     assert before.complete and names == () and left.steps == () and left.model.effects == ()
 
@@ -325,7 +210,7 @@ def test_a_step_that_predicts_is_no_chance(monkeypatch: pytest.MonkeyPatch) -> N
     after = validate_model(hold_out, with_effect(estimate, "load_step", {"step_voltage": 0.7, "step_time": 2.0}))
     assert before.held.gap > 2.0 * after.held.gap
     selection = Selection((found_step(before, after, "load_step"),), after, hold_out, 1)
-    monkeypatch.setattr(determination, "is_chance_size", lambda effect, model: True)
+    give_sizes_by_chance(monkeypatch, True)
     assert drop_undetermined(selection, SILENT) == (selection, ())
 
 
@@ -334,7 +219,7 @@ def test_what_is_not_determined_is_dropped_when_the_time_is_used_up(
     monkeypatch: pytest.MonkeyPatch, step: float, stays: bool
 ) -> None:
     """By its errors neither is; the larger one is seen in the gap."""
-    monkeypatch.setattr(determination, "is_chance_size", lambda effect, model: True)
+    give_sizes_by_chance(monkeypatch, True)
     estimate, hold_out = fitted(step_voltage=0.8 if stays else 0.0, step_time=2.0)
     before = validate_model(hold_out, estimate)
     after = validate_model(hold_out, with_effect(estimate, "load_step", {"step_voltage": step, "step_time": 2.0}))
@@ -390,7 +275,7 @@ def test_a_size_by_chance_is_not_needed_where_all_is_explained_without_it(
     """A load step of 0.050 ± 0.049 V was named beside the static friction of a real motor that starts anew."""
     monkeypatch.setattr(determination, "find_limits_hit", lambda model: ())
     monkeypatch.setattr(determination, "has_vague_instant", lambda effect, model: False)
-    monkeypatch.setattr(determination, "is_chance_size", lambda effect, model: chance)
+    give_sizes_by_chance(monkeypatch, chance)
     gap = 0.999 * thresholds.EXPLAINED_GAP if explained else 1.001 * thresholds.EXPLAINED_GAP
     model, without = stub_model(gap / (1.001 * thresholds.WORSE_GAP), 0.0), stub_model(gap, 0.0)
     assert is_needed(found_step(without, model, "load_step"), model, without) is needed
@@ -436,7 +321,7 @@ def test_what_was_dropped_does_not_come_back_in_the_place_of_another(
         determination, "find_undetermined", lambda model: model.effects[-1:] if line.effects[0] in model.effects else ()
     )
     monkeypatch.setattr(determination, "drop_step", lambda *_: smaller)
-    monkeypatch.setattr(determination, "is_chance_size", lambda *_: True)
+    give_sizes_by_chance(monkeypatch, True)
     monkeypatch.setattr(determination, "is_needed", lambda *_: False)
     monkeypatch.setattr(determination, "eliminate_backward", lambda *_: exchanged)
     left, names = drop_undetermined(begun, SILENT)
@@ -487,7 +372,7 @@ def test_a_size_at_a_limit_of_the_search_is_none_though_the_rest_is_determined(
     model = with_effects(stub_model(1.0, 0.0), "backlash")
     limits = ("backlash_angle",) if at_limit else ("load_fraction",)
     monkeypatch.setattr(determination, "find_limits_hit", lambda model: limits)
-    monkeypatch.setattr(determination, "is_chance_size", lambda *_: False)
+    give_sizes_by_chance(monkeypatch, False)
     assert find_undetermined(model) == (("backlash",) if at_limit else ())
 
 
@@ -505,7 +390,7 @@ def test_of_two_that_do_each_others_work_the_needless_one_goes(monkeypatch: pyte
     monkeypatch.setattr(
         determination, "_find_unknown", lambda model: ("ks", "bias_voltage") if len(model.effects) == 2 else ()
     )
-    monkeypatch.setattr(determination, "is_chance_size", lambda *_: False)
+    give_sizes_by_chance(monkeypatch, False)
     for order in (steps, (replace(steps[1], found=replace(steps[1].found, before=bare)), steps[0])):
         left, names = drop_undetermined(Selection(order, last, hold_out, 1), SILENT)
         assert names == ("load_bias",) and left.model.effects == ("coulomb_friction",)
@@ -529,7 +414,7 @@ def test_what_is_left_stays_where_without_it_the_gap_has_structure(
     monkeypatch.setattr(determination, "find_limits_hit", lambda model: ())
     last = stub_model(1.0, 0.0)
     begun = replace(smaller, steps=(*smaller.steps, found_step(after, last, "supply_sag")), model=last)
-    monkeypatch.setattr(determination, "is_chance_size", lambda *_: False)
+    give_sizes_by_chance(monkeypatch, False)
     left, names = drop_undetermined(begun, SILENT)
     assert names == ("supply_sag",) and left is (smaller if kept else rest)
 
