@@ -177,8 +177,9 @@ EFFECTS = (
         "reversals",
         "the backlash (backlash)",
         (
-            # Starts and box by what the shaft turns in a sample, 0.75 rad at 150 rad/s and 200 Hz.
-            P("backlash_angle", "rad", 0.0, 0.0, 1.33, TURN, starts=(0.067, 0.53), usual=(0.0, 1.0)),
+            # Starts and box by what the shaft turns in a sample, 0.75 rad at 150 rad/s and 200 Hz. Behind a gear the
+            # play of an output's degrees is whole turns of the motor's shaft.
+            P("backlash_angle", "rad", 0.0, 0.0, 30.0, TURN, starts=(4.0, 0.067, 0.53), usual=(0.0, 1.0)),
             P("load_fraction", "–", 0.0, 0.0, 0.95, maximum=0.99, starts=(0.3, 0.7)),
         ),
         after_reversals=True,

@@ -75,6 +75,16 @@ def test_a_hidden_effect_is_named_and_sized(effect: str) -> None:
     assert finding.where and found.undetectable == () and found.suggested_experiment == ""
 
 
+def test_play_of_whole_turns_is_named_and_sized() -> None:
+    """Play of an output's degrees is whole turns of a motor's shaft before the gear: here eight rows of its travel."""
+    hidden = {"ks": 0.5, "backlash_angle": 6.5, "load_fraction": 0.6}
+    found = diagnose([made(hidden, profiles.random(12.0, 10.0, 7), 3)])
+    assert found.verdict is Verdict.EXPLAINED
+    assert {one.effect for one in found.findings} == {"coulomb_friction", "backlash"}
+    assert found.model.parameters.value("backlash_angle") == pytest.approx(6.5, rel=0.03)
+    assert found.model.parameters.value("load_fraction") == pytest.approx(0.6, rel=0.02)
+
+
 @pytest.mark.slow
 def test_static_friction_comes_with_coulomb_friction() -> None:
     found = diagnosed({"ks": 0.4, "breakaway_voltage": 0.9, "stribeck_speed": 4.0})

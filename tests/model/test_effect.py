@@ -48,8 +48,9 @@ ABSOLUTE_ONES = {"ripple_phase", "eccentricity", "eccentricity_phase"}  # angles
         ("warm_up_time", 0.005, 6.0, (0.6, 120.0)),  # not within seconds
         ("warm_up_time", 0.005, 3600.0, (10.0, 72000.0)),
         ("ripple_cycles", 0.005, 28.0, (1.0, 500.0)),  # as fine as the encoder sees
-        ("backlash_angle", 0.005, 28.0, (0.0, 1.33)),
-        ("backlash_angle", 0.001, 28.0, (0.0, 1.0)),
+        ("backlash_angle", 0.005, 28.0, (0.0, 30.0)),
+        ("backlash_angle", 0.001, 28.0, (0.0, 6.0)),
+        ("backlash_angle", 1e-5, 28.0, (0.0, 1.0)),
     ],
 )
 def test_a_box_spans_what_is_usual_within_the_recording(
