@@ -58,7 +58,7 @@ def identify(recordings: Sequence[Recording], request: Request, progress: Progre
     effects = normalised(request.effects)
     whole = make_problem(recordings, drop_periodic_effects(effects), request.workers, working)
     estimate, search = search_globally(whole, request.search, lambda share: tell("search", SEARCHED * share))
-    timing = find_timing(recordings, estimate)
+    timing = find_timing(recordings, estimate, beside=effects, lagging=True)
     if timing is not None:
         recordings = timing.set_on(recordings)
         whole = make_problem(recordings, drop_periodic_effects(effects), request.workers, working)

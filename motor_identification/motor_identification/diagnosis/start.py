@@ -48,13 +48,16 @@ def fit_known(recordings: Sequence[Recording], request: Request, hold_out: HoldO
     return begin_selection(add_periodic_effects(single, known), hold_out, request.workers), search
 
 
-def find_timing_beside(first: Start, selection: Selection, filtered: bool = True) -> Timing | None:
+def find_timing_beside(
+    first: Start, selection: Selection, filtered: bool = True, lagging: bool = False
+) -> Timing | None:
     """Find how speeds, which nobody timed, were made, as the motion shows beside what was selected; None as assumed.
 
-    filtered: whether they may have passed a filter.
+    filtered: whether they may have passed a filter. lagging: whether, where none is found so,
+    an inductance among it is believed.
     """
-    model = selection.model
-    return find_timing(first.recordings, model.estimate, first.selection.hold_out.restrict, model.effects, filtered)
+    model, restrict = selection.model, first.selection.hold_out.restrict
+    return find_timing(first.recordings, model.estimate, restrict, model.effects, filtered, lagging)
 
 
 def begin_as_timed(first: Start, timing: Timing | None, request: Request, stopped: Callable[[], bool]) -> Start:

@@ -33,7 +33,7 @@ from motor_identification.timing.row_times import AS_STAMPED, RowTimes, list_row
 from motor_identification.timing.shaped_fit import Shaper, measure_gain
 from motor_identification.timing.smoothing import AS_LIKELY, Likelihood, find_filter
 from motor_identification.timing.timing import ASSUMED, LEAST_DELAY, OTHERS, UNTIL, Timing, is_open, is_voltage_open
-from motor_model.effects import EFFECT_BY_NAME, LAGS
+from motor_model.effects import EFFECT_BY_NAME, LAGGING, LAGS
 from motor_model.sample import Measurement
 
 # Of log likelihood, in all and a row, which another timing has to be worth. Measured: 100 and more, 0.1 to 1 a row,
@@ -66,17 +66,27 @@ def find_timing(
     restrict: Callable[[Problem], Problem] | None = None,
     beside: Sequence[str] = (),
     filtered: bool = True,
+    lagging: bool = False,
 ) -> Timing | None:
     """Find when the speeds of recordings were made, and how smoothed they are, as their motion shows.
 
     Of counts, which are of their rows' instants, whether voltages held until these. None if as assumed, or as was said.
     estimate: of the same motor, as the assumed timing gives it. restrict: to what a fit may see; all, without. beside:
     effects that are known to be in the motor; of what only makes it late, and of what repeats with its angle, the
-    timing is found without. filtered: whether they may have passed a filter.
+    timing is found without. filtered: whether they may have passed a filter. lagging: whether, where none is found so,
+    an inductance is believed that is beside.
     """
     if sum(len(recording) for recording in recordings) < LEAST_SPEEDS:
         return None
-    shaper = Shaper(recordings, estimate, restrict, _list_shaping(beside))
+    found = _find_beside(Shaper(recordings, estimate, restrict, _list_shaping(beside)), filtered)
+    if found is None and lagging and set(LAGGING).intersection(beside):
+        found = _find_beside(Shaper(recordings, estimate, restrict, _list_shaping(beside, LAGGING)), filtered)
+    return found
+
+
+def _find_beside(shaper: Shaper, filtered: bool) -> Timing | None:
+    """Find the timing of recordings by what shapes their motion; None if as assumed, or as was said."""
+    recordings = shaper.recordings
     if all(map(is_voltage_open, recordings)):
         return _find_voltages(shaper)
     if any(recording.info.measurement is not Measurement.SPEED for recording in recordings):
@@ -100,9 +110,11 @@ def _find_voltages(shaper: Shaper) -> Timing | None:
     return None if found == ASSUMED else found
 
 
-def _list_shaping(effects: Sequence[str]) -> tuple[str, ...]:
-    """List what shapes a motion, of some effects, and makes it neither late nor repeats with its angle."""
-    return tuple(name for name in effects if name not in LAGS and not EFFECT_BY_NAME[name].periodic)
+def _list_shaping(effects: Sequence[str], late: Sequence[str] = ()) -> tuple[str, ...]:
+    """List what shapes a motion, of some effects: neither makes it late, but for some, nor repeats with its angle."""
+    return tuple(
+        name for name in effects if (name in late or name not in LAGS) and not EFFECT_BY_NAME[name].periodic
+    )
 
 
 def _find_row_times(shaper: Shaper, timing: Timing) -> RowTimes:

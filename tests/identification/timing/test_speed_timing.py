@@ -154,6 +154,29 @@ def test_what_is_known_to_be_in_a_motor_tells_how_speeds_were_made(known: tuple[
 
 
 @pytest.mark.slow
+def quick(sigma: float = 3.0, seconds: float = 4.0, seed: int = 3) -> Recording:
+    """A small motor at 1 kHz whose inductance takes a third of its time constant, by a tachogenerator's instants."""
+    motor = {"kv": 0.03, "ka": 1.5e-4, "ks": 1.5, "electrical_time_constant": 0.0016}
+    levels = np.random.default_rng(seed).uniform(-9.0, 9.0, int(seconds * 125.0))
+    drive = np.arange(len(levels)) * 0.008, levels
+    recording, truth = record(motor, *drive, seed=seed, edges=6, sample_rate=1000.0, single_channel=False)
+    noise = sigma * np.random.default_rng(seed).standard_normal(len(truth.speed))
+    return without_count(replace(as_speed(recording), speed=truth.speed + noise))
+
+
+@pytest.mark.slow
+def test_instants_are_found_beside_an_inductance_that_hides_them() -> None:
+    """Read as means over their rows, both effects were found, and neither left less than something structured."""
+    log = check(quick())
+    assert timing_of(log) is None
+    found = diagnose([log])
+    assert {one.effect for one in found.findings} == {"coulomb_friction", "armature_inductance"}
+    fit = identify([log], Request(("coulomb_friction", "armature_inductance")))
+    for values in (found.model.parameters.values, fit.parameters.values):
+        assert values["electrical_time_constant"] == pytest.approx(0.0016, rel=0.03)
+        assert values["ks"] == pytest.approx(1.5, rel=0.02) and values["ka"] == pytest.approx(1.5e-4, rel=0.02)
+
+
 def test_a_diagnosis_finds_the_timing_again_where_a_lag_undoes_it(monkeypatch: pytest.MonkeyPatch) -> None:
     timings = iter((OTHERS[1], OTHERS[0]))
     monkeypatch.setattr(diagnose_module, "find_timing_beside", lambda *_, **__: next(timings))
@@ -233,7 +256,8 @@ def test_the_nearest_model_is_asked_for_the_timing_where_something_is_left(
         model = SimpleNamespace(held=SimpleNamespace(gap=1.0), above_floor=over, complete=done)
         return SimpleNamespace(selection=SimpleNamespace(model=model), effects=("backlash",), finished=True)
 
-    def look(first: Any, selection: Any, filtered: bool = True) -> Timing | None:
+    def look(first: Any, selection: Any, lagging: bool = False) -> Timing | None:
+        assert lagging is (selection is nearest)
         return OTHERS[0] if selection is nearest and told else None
 
     monkeypatch.setattr(diagnose_module, "find_timing_beside", look)
@@ -247,6 +271,37 @@ def test_the_nearest_model_is_asked_for_the_timing_where_something_is_left(
     start, _ = diagnose_module._select_as_timed(first, Request(), reporter, limit)  # type: ignore[arg-type]
     assert start.timing == (OTHERS[0] if taken else None)
     assert (begun[-1] is nearest) is (above and not complete and steps and told and not explained)
+
+
+@pytest.mark.parametrize(
+    ("effect", "told", "gap", "taken"),
+    [
+        ("armature_inductance", True, 1.09, True),
+        ("armature_inductance", True, 1.11, False),
+        ("armature_inductance", False, 1.0, False),
+        ("transport_delay", True, 1.0, False),  # which is another word for a timing
+    ],
+)
+def test_an_inductance_that_was_found_is_asked_for_the_timing(
+    monkeypatch: pytest.MonkeyPatch, effect: str, told: bool, gap: float, taken: bool
+) -> None:
+    gaps = iter([1.0, gap])
+
+    def select(*_: Any) -> Any:
+        model = SimpleNamespace(held=SimpleNamespace(gap=next(gaps)), above_floor=False, complete=True)
+        return SimpleNamespace(selection=SimpleNamespace(model=model), effects=(effect,), finished=True)
+
+    first = SimpleNamespace(selection=None, timing=None)
+    again = SimpleNamespace(selection=None, timing=OTHERS[0])
+    look: Callable[..., Any] = lambda *_, lagging=False: OTHERS[0] if lagging and told else None  # noqa: E731
+    begin: Callable[..., Any] = lambda one, timing, *_: again if timing else first  # noqa: E731
+    monkeypatch.setattr(diagnose_module, "find_timing_beside", look)
+    monkeypatch.setattr(diagnose_module, "_select_in_time", select)
+    monkeypatch.setattr(diagnose_module, "begin_as_timed", begin)
+    limit = SimpleNamespace(begin_with=lambda _: None, begin_again=lambda: True, best=None)
+    reporter = SimpleNamespace(stopped=lambda: False, beyond=lambda _: None)
+    start, _ = diagnose_module._select_as_timed(first, Request(), reporter, limit)  # type: ignore[arg-type]
+    assert start.timing == (OTHERS[0] if taken else None)
 
 
 def test_what_was_said_is_believed() -> None:
