@@ -192,8 +192,8 @@ def _select_as_timed_by_nearest(
 
     What was not known hid it. None where nothing is left, it shows none, or does not explain all. Measured: beside a
     backlash that nobody knew of a tachogenerator's own instants were likelier by 14 only, in 600 rows, and half a row
-    kept the backlash from explaining what it does. And beside an inductance of a third of the time constant of 5 ms they
-    were none at 1 kHz, unless that was there too.
+    kept the backlash from explaining what it does. Beside an inductance of a third of the time constant of 5 ms they
+    did not show at 1 kHz, unless it was fitted too.
     """
     model, nearest = selected.selection.model, limit.best
     if nearest is None or not nearest.steps or not model.above_floor or model.complete:

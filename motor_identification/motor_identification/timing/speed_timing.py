@@ -112,9 +112,7 @@ def _find_voltages(shaper: Shaper) -> Timing | None:
 
 def _list_shaping(effects: Sequence[str], late: Sequence[str] = ()) -> tuple[str, ...]:
     """List what shapes a motion, of some effects: neither makes it late, but for some, nor repeats with its angle."""
-    return tuple(
-        name for name in effects if (name in late or name not in LAGS) and not EFFECT_BY_NAME[name].periodic
-    )
+    return tuple(name for name in effects if (name in late or name not in LAGS) and not EFFECT_BY_NAME[name].periodic)
 
 
 def _find_row_times(shaper: Shaper, timing: Timing) -> RowTimes:
