@@ -176,13 +176,15 @@ def _select_as_timed(
         return start, selected
     timing = find_timing_beside(first, selected.selection, filtered=not doubted)
     most = thresholds.HALVED_GAP if doubted else thresholds.GAP_CHANCE
-    if timing == start.timing or not limit.begin_again():
+    if timing == start.timing:
         return start, selected
     again, other = _select_again(first, timing, request, reporter, limit)
+    if other is None:
+        return start, replace(selected, finished=False)
     model = other.selection.model
     # What a filter hides of the noise makes a gap smaller, too: without it, all has to be explained.
     alike = model.held.gap <= most * selected.selection.model.held.gap and (model.complete or not doubted)
-    return (again, other) if other.finished and alike else (start, selected)
+    return (again, other) if alike else (start, selected)
 
 
 def _select_as_timed_by_nearest(
@@ -199,10 +201,12 @@ def _select_as_timed_by_nearest(
     if nearest is None or not nearest.steps or not model.above_floor or model.complete:
         return None
     timing = find_timing_beside(first, nearest, lagging=True)
-    if timing is None or not limit.begin_again():
+    if timing is None:
         return None
     again, other = _select_again(first, timing, request, reporter, limit)
-    if other.finished and other.selection.model.complete:
+    if other is None:
+        return first, replace(selected, finished=False)
+    if other.selection.model.complete:
         return again, other
     limit.begin_with(nearest)  # of which is told where nothing is named
     return None
@@ -218,19 +222,24 @@ def _select_as_timed_beside_lag(
     if not set(LAGGING).intersection(selected.effects):
         return None
     timing = find_timing_beside(first, selected.selection, lagging=True)
-    if timing is None or not limit.begin_again():
+    if timing is None:
         return None
     again, other = _select_again(first, timing, request, reporter, limit)
+    if other is None:
+        return first, replace(selected, finished=False)
     alike = other.selection.model.held.gap <= thresholds.GAP_CHANCE * selected.selection.model.held.gap
-    return (again, other) if other.finished and alike else None
+    return (again, other) if alike else None
 
 
 def _select_again(
     first: Start, timing: Timing | None, request: Request, reporter: ProgressReporter, limit: TimeLimit[Selection]
-) -> tuple[Start, _Selected]:
-    """Select once more with speeds that were made by another timing."""
+) -> tuple[Start, _Selected | None]:
+    """Select once more with speeds that were made by another timing; nothing is selected where time is used up."""
+    if not limit.begin_again():
+        return first, None
     again = begin_as_timed(first, timing, request, reporter.stopped)
-    return again, _select_in_time(again.selection, reporter.beyond(DONE_ONCE), limit)
+    selected = _select_in_time(again.selection, reporter.beyond(DONE_ONCE), limit)
+    return again, selected if selected.finished else None
 
 
 def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tuple[str, ...]]:

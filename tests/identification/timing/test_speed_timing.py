@@ -274,16 +274,17 @@ def test_the_nearest_model_is_asked_for_the_timing_where_something_is_left(
 
 
 @pytest.mark.parametrize(
-    ("effect", "told", "gap", "taken"),
+    ("effect", "told", "time", "gap", "taken"),
     [
-        ("armature_inductance", True, 1.09, True),
-        ("armature_inductance", True, 1.11, False),
-        ("armature_inductance", False, 1.0, False),
-        ("transport_delay", True, 1.0, False),  # which is another word for a timing
+        ("armature_inductance", True, True, 1.09, True),
+        ("armature_inductance", True, True, 1.11, False),
+        ("armature_inductance", False, True, 1.0, False),
+        ("armature_inductance", True, False, 1.0, False),  # the time limit is reached, and said
+        ("transport_delay", True, True, 1.0, False),  # which is another word for a timing
     ],
 )
 def test_an_inductance_that_was_found_is_asked_for_the_timing(
-    monkeypatch: pytest.MonkeyPatch, effect: str, told: bool, gap: float, taken: bool
+    monkeypatch: pytest.MonkeyPatch, effect: str, told: bool, time: bool, gap: float, taken: bool
 ) -> None:
     gaps = iter([1.0, gap])
 
@@ -298,10 +299,11 @@ def test_an_inductance_that_was_found_is_asked_for_the_timing(
     monkeypatch.setattr(diagnose_module, "find_timing_beside", look)
     monkeypatch.setattr(diagnose_module, "_select_in_time", select)
     monkeypatch.setattr(diagnose_module, "begin_as_timed", begin)
-    limit = SimpleNamespace(begin_with=lambda _: None, begin_again=lambda: True, best=None)
+    limit = SimpleNamespace(begin_with=lambda _: None, begin_again=lambda: time, best=None)
     reporter = SimpleNamespace(stopped=lambda: False, beyond=lambda _: None)
-    start, _ = diagnose_module._select_as_timed(first, Request(), reporter, limit)  # type: ignore[arg-type]
+    start, selected = diagnose_module._select_as_timed(first, Request(), reporter, limit)  # type: ignore[arg-type]
     assert start.timing == (OTHERS[0] if taken else None)
+    assert selected.finished is time
 
 
 def test_what_was_said_is_believed() -> None:
