@@ -289,8 +289,9 @@ def test_an_inductance_that_was_found_is_asked_for_the_timing(
     gaps = iter([1.0, gap])
 
     def select(*_: Any) -> Any:
-        model = SimpleNamespace(held=SimpleNamespace(gap=next(gaps)), above_floor=False, complete=True)
-        return SimpleNamespace(selection=SimpleNamespace(model=model), effects=(effect,), finished=True)
+        held = SimpleNamespace(gap=next(gaps))
+        model = SimpleNamespace(held=held, above_floor=False, complete=True, effects=(effect,))
+        return diagnose_module._Selected(SimpleNamespace(model=model), (), finished=True)  # type: ignore[arg-type]
 
     first = SimpleNamespace(selection=None, timing=None)
     again = SimpleNamespace(selection=None, timing=OTHERS[0])
