@@ -18,6 +18,9 @@ LEAST_TIMEOUT = 0.05  # [s] of the board: no computer is quicker for certain
 OLDEST = (1, 1)
 SETUP = (1, 2)  # of the firmware: knows setup, and counts both channels
 PROTECT = (1, 4)  # of the firmware: watches the motor's current
+# Of the firmware: before, a period whose last step of the counter was this short made it go round once more at each
+# sample, and a missing command was noticed ever later; LONGEST_STEP is what it waits for at once.
+STEPS, SHORT_STEP, LONGEST_STEP = (1, 4, 5), 2_000, 0x8000  # [tick]
 USUAL_TICK = 500  # [ns] of the boards there are, before one has said so
 MOST_TOP = 32_767  # what a command's duty can say
 
@@ -72,6 +75,9 @@ class Config:
     def configure(self, board: Hello) -> Configure:
         """What to ask of this board."""
         period = max(round(1e9 / self.sample_rate / board.tick_ns), board.shortest_period)
+        last = period % LONGEST_STEP
+        if (*_firmware(board), board.firmware_patch) < STEPS and period > LONGEST_STEP and last < SHORT_STEP:
+            period -= last
         timeout = min(max(1.2 * self.command_timeout, LEAST_TIMEOUT), SILENCE)
         return Configure(period, round(timeout * 1e3), self.decay)
 

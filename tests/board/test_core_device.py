@@ -151,6 +151,19 @@ def test_a_new_period_does_not_wait_for_the_end_of_a_long_one() -> None:
     assert 0 < times[0] - LEAD - begun <= 0x8000 and times[1] - times[0] == times[2] - times[1] == 2_000
 
 
+@pytest.mark.parametrize("period", [0x8001, 32_787, 0xFFFF, 0x10001, 65_574, 98_361, 2**24])
+def test_no_compare_interrupt_follows_another_at_once(period: int) -> None:
+    """The counter would have passed it before it is set to it, and would go round once more."""
+    board, steps = CoreBoard(), []
+    board.send(Configure(period, 1_000, 0))
+    board.step()
+    for _ in range(2 + 2 * (period // 0x4000)):
+        before = board.now
+        board.step()
+        steps.append(board.now - before)
+    assert min(steps) >= 0x4000 and max(steps) <= 0x8000
+
+
 def test_a_command_that_came_after_the_tick_is_not_late() -> None:
     """The interrupt may wait for the main loop, which takes a command meanwhile."""
     output, lib = core.Output(on=True, top=256, timeout=TIMEOUT), core.load()

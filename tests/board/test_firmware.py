@@ -22,7 +22,7 @@ def test_says_hello_by_itself_at_power_up(bench: Bench, chip: str) -> None:
     bench.run(4)
     hello = bench.last(Hello)
     kind = Board[chip.upper()]
-    assert hello == Hello(1, 4, 4, kind, 0, 0, 1, 500, 256, 0, 10_000, 2_000, 100, ResetCause.POWER_ON, hello.boot, 0)
+    assert hello == Hello(1, 4, 5, kind, 0, 0, 1, 500, 256, 0, 10_000, 2_000, 100, ResetCause.POWER_ON, hello.boot, 0)
     assert bench.events[0].seq == 0 and bench.chip.pins.share == 0.0
 
 
@@ -116,6 +116,17 @@ def test_without_commands_the_pins_go_to_0_v_and_stay_there(bench: Bench, timeou
     assert bench.chip.pins.share == 0.0  # what was commanded before does not come back
     bench.drive(200, 10)
     assert bench.chip.pins.share == 200 / 256
+
+
+@on_each_chip
+@pytest.mark.parametrize("period", [32_787, 98_361], ids=["61 Hz", "20.33 Hz"])
+def test_a_missing_command_is_noticed_at_any_sample_rate(bench: Bench, period: int) -> None:
+    """Longest steps of the counter and some us: it was set to what it had passed, and its time fell behind."""
+    bench.start(period)
+    bench.drive(200, 500)
+    silent = bench.chip.cycle - 5 * MS  # the latest command
+    off = bench.run_until(lambda: bench.chip.pins.share == 0.0, 150)
+    assert 100 * MS <= off - silent <= 118 * MS
 
 
 def test_disable_and_configure_switch_off_within_a_sample(bench: Bench) -> None:

@@ -22,7 +22,9 @@ MakeBench = Callable[..., Bench]
 SLOT = 2 * np.pi / 96
 
 
-@pytest.mark.parametrize("period", [2_000, 10_000, 66_667, 200_000], ids=["1 kHz", "200 Hz", "30 Hz", "10 Hz"])
+@pytest.mark.parametrize(
+    "period", [2_000, 10_000, 32_787, 66_667, 200_000], ids=["1 kHz", "200 Hz", "61 Hz", "30 Hz", "10 Hz"]
+)
 def test_samples_exactly_at_the_period_it_was_given(bench: Bench, period: int) -> None:
     bench.run(8)
     bench.send(Configure(period, 100, 0))

@@ -18,6 +18,15 @@ def test_the_sample_period_is_in_ticks_of_the_board(rate: float, period: int) ->
     assert Config(sample_rate=200.0).configure(replace(HELLO, tick_ns=1000)).sample_period == 5_000
 
 
+@pytest.mark.parametrize(("rate", "older"), [(61.0, 0x8000), (20.33, 3 * 0x8000), (50.0, 40_000), (200.0, 10_000)])
+def test_an_older_board_is_given_no_period_that_ends_with_a_short_step(rate: float, older: int) -> None:
+    """It would notice a missing command ever later: 61 Hz are a longest step of its counter and 10 us."""
+    board = replace(HELLO, firmware_major=1, firmware_minor=4, firmware_patch=4)
+    assert Config(sample_rate=rate).configure(board).sample_period == older
+    newer = Config(sample_rate=rate).configure(replace(board, firmware_patch=5)).sample_period
+    assert newer == round(2e6 / rate)
+
+
 @pytest.mark.parametrize(("timeout", "milliseconds"), [(0.1, 120), (0.06, 72), (0.01, 50), (5.0, 120)])
 def test_the_board_waits_a_little_longer_than_the_driver_and_never_long(timeout: float, milliseconds: int) -> None:
     asked = Config(command_timeout=timeout, decay=Decay.COAST).configure(HELLO)

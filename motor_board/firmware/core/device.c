@@ -6,7 +6,7 @@
 
 #define FIRMWARE_MAJOR 1
 #define FIRMWARE_MINOR 4
-#define FIRMWARE_PATCH 4
+#define FIRMWARE_PATCH 5
 
 /* 256 over the golden ratio: rounds of starts begin with latches that are far apart for long, so that a session which is
  * sent again without some of its ways off does not meet the one of another round. */
@@ -29,10 +29,14 @@ static void switch_off(struct device *device, enum guard_verdict why)
     device->guard.tripped = (uint8_t)why;
 }
 
+/* No step is short: what is left after a longest one might be over before the counter is set to it, which then goes round
+ * once more, and the clock of compare interrupts, by which a missing command is noticed, would fall behind. */
 static uint16_t next_compare(struct device *device)
 {
     uint32_t left = device->tick - device->compare;
-    device->compare += left < DEVICE_LONGEST_STEP ? left : DEVICE_LONGEST_STEP;
+    uint32_t half = left / 2u;
+    uint32_t step = left <= DEVICE_LONGEST_STEP ? left : half < DEVICE_LONGEST_STEP ? half : DEVICE_LONGEST_STEP;
+    device->compare += step;
     return (uint16_t)device->compare;
 }
 
