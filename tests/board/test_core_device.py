@@ -164,6 +164,22 @@ def test_no_compare_interrupt_follows_another_at_once(period: int) -> None:
     assert min(steps) >= 0x4000 and max(steps) <= 0x8000
 
 
+@pytest.mark.parametrize(("period", "late"), [(2_000, 2_400), (2_000, 9_000), (10_000, 9_700), (40_000, 30_000)])
+def test_a_compare_interrupt_that_is_held_up_is_followed_by_one_that_is_ahead(period: int, late: int) -> None:
+    """The counter would have passed it, and would go round once more: all of the board's times were 33 ms late."""
+    board = CoreBoard()
+    board.send(Configure(period, 1_000, 0))
+    for _ in range(6):
+        board.step()
+    board.hear()
+    board.step(late)
+    assert 100 <= (board.compare - board.now) % 65536 <= 0x8000
+    for _ in range(6):
+        board.step()
+    times = [frame.time for frame in board.hear() if isinstance(frame, Telemetry)]
+    assert 0 <= board.now + LEAD - times[-1] < period and len({time % period for time in times}) == 1
+
+
 def test_a_command_that_came_after_the_tick_is_not_late() -> None:
     """The interrupt may wait for the main loop, which takes a command meanwhile."""
     output, lib = core.Output(on=True, top=256, timeout=TIMEOUT), core.load()

@@ -19,17 +19,20 @@ class CoreBoard:
     def __init__(self, config: core.DeviceConfig = CONFIG) -> None:
         self.lib, self.device, self.config = core.load(), core.Device(), config
         self.lib.device_start(byref(self.device), byref(config), 5, 1)
-        self.now, self.seq = 0, 0
+        self.now, self.overflows, self.seq = 0, 0, 0
         self.decoder = Decoder()
         self.compare = 10_000
 
-    def step(self) -> None:
-        """The next compare interrupt."""
-        self.now += (self.compare - self.now) % 65536 or 65536
-        for _ in range(self.now // 65536 - (self.now - 1) // 65536):
+    def step(self, late: int = 0) -> None:
+        """The next compare interrupt, which is held up for so long [tick]."""
+        self.now += ((self.compare - self.now) % 65536 or 65536) + late
+        while self.overflows < self.now // 65536:
+            self.overflows += 1
             self.lib.device_overflow(byref(self.device))
         ticks = self.lib.device_latch(byref(self.device))
         self.compare = self.lib.device_next(byref(self.device))
+        if self.lib.device_is_behind(byref(self.device), self.now % WRAP):
+            self.compare = self.lib.device_catch_up(byref(self.device), self.now % WRAP)
         if ticks:
             self.lib.device_sample(byref(self.device), byref(self.device.edges))
 

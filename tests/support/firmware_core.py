@@ -162,6 +162,8 @@ RESULTS: dict[str, Any] = {
     "guard_check": c_int,
     "device_latch": c_bool,
     "device_next": c_uint16,
+    "device_is_behind": c_bool,
+    "device_catch_up": c_uint16,
     "device_act": c_bool,
     "device_take": c_bool,
 }
@@ -197,6 +199,8 @@ ARGUMENTS: dict[str, list[Any]] = {
     "quadrature_see_b": [c_void_p, c_uint16, c_bool, c_uint8, c_uint8],
     "quadrature_at": [c_void_p, c_uint32],
     "device_next": [c_void_p],
+    "device_is_behind": [c_void_p, c_uint32],
+    "device_catch_up": [c_void_p, c_uint32],
     "device_sample": [c_void_p, c_void_p],
     "device_act": [c_void_p, c_void_p, c_uint32],
     "device_take": [c_void_p, c_void_p, c_bool, c_uint32, c_uint16],

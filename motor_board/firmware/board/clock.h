@@ -38,6 +38,12 @@ static inline bool clock_overflow_pending(void)
     return CLOCK_FLAGS & CLOCK_OVERFLOWN;
 }
 
+/* Whether the compare interrupt is due and has not run yet. */
+static inline bool clock_tick_pending(void)
+{
+    return CLOCK_FLAGS & CLOCK_TICK_DUE;
+}
+
 /* [tick] now; with interrupts off. The counter is read first: an overflow right after it leaves a value in the upper
  * half, which edge_timer_extend takes for what it is. */
 static inline uint32_t clock_now(const struct edge_timer *edges)

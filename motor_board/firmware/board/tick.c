@@ -54,6 +54,21 @@ static void copy_edges(struct edge_timer *edges)
     edges->known = edges->known < sure ? edges->known : sure;
 }
 
+/* Edges come first, and noise may hold a tick up until it is time for the next. */
+static void __attribute__((noinline)) catch_up(void)
+{
+    ATOMIC_BLOCK(ATOMIC_RESTORESTATE)
+    {
+        uint32_t now = board_now();
+        if (device_is_behind(&board_device, now) && !clock_tick_pending()) {
+            CLOCK_TICK = device_catch_up(&board_device, now);
+            if (MOTOR_CURRENT_SENSE) {
+                CLOCK_SENSE = (uint16_t)(board_device.tick - SENSE_LEAD);
+            }
+        }
+    }
+}
+
 /* Only its beginning keeps captures waiting: edges may come every 50 us. The next compare interrupt is at least 1 ms
  * away, so that this one is over before it. */
 ISR(CLOCK_TICK_vect)
@@ -67,6 +82,7 @@ ISR(CLOCK_TICK_vect)
     ticking = true;
     board_woken = true;
     sei();
+    catch_up();
     if (ticks) {
         struct edge_timer edges;
         while (!clock_is_past((uint16_t)board_device.latest)) {

@@ -111,6 +111,23 @@ uint16_t device_next(struct device *device)
     return next_compare(device);
 }
 
+bool device_is_behind(const struct device *device, uint32_t now)
+{
+    return (int32_t)(now - device->compare) > 0;
+}
+
+uint16_t device_catch_up(struct device *device, uint32_t now)
+{
+    while ((int32_t)(device->compare - now) < (int32_t)DEVICE_AHEAD) {
+        if (device->compare == device->tick) {
+            device->tick += device->period;
+            device->dropped_samples++;
+        }
+        next_compare(device);
+    }
+    return (uint16_t)device->compare;
+}
+
 void device_sample(struct device *device, const struct edge_timer *edges)
 {
     struct wire_telemetry *sample = &device->sample;

@@ -19,6 +19,7 @@
 
 #define DEVICE_LONGEST_PERIOD 0x1000000ul /* [tick] */
 #define DEVICE_LONGEST_STEP 0x8000u       /* [tick] between two compare interrupts; below one turn of the counter */
+#define DEVICE_AHEAD 100u                 /* [tick] in which the counter can be set to the next one */
 
 /* What does not change while the board runs. */
 struct device_config {
@@ -76,6 +77,13 @@ bool device_latch(struct device *device);
 
 /* Second: the counter value of the next compare interrupt. */
 uint16_t device_next(struct device *device);
+
+/* Whether the next compare interrupt was to come before `now`: where this one was held up, the counter may have passed it
+ * before it was set to it, and would go round once more. */
+bool device_is_behind(const struct device *device, uint32_t now);
+
+/* Instead of that one, the counter value of the first that is ahead of `now`; samples before it are dropped. */
+uint16_t device_catch_up(struct device *device, uint32_t now);
 
 /* Third, at a tick, once device->latest has passed: the sample is written down. Long, and nothing waits for it:
  * interrupts for edges may come meanwhile, which is why it takes a copy of device->edges. */
