@@ -26,6 +26,11 @@ NO_INFO = "The observer waits for motor/info to say what the encoder is like; th
 NO_EDGES = "The plant does not stamp its edges, which the observer needs: the speed is the measured one."
 NO_DIRECTION = "An angle cannot be approached: a single channel does not measure the direction; use two channels."
 NO_POSITION = "An angle cannot be approached without the observer: set model, and speed_source to observer."
+SLOWEST = 100.0  # samples a second: from there on faults are told as at 200, and the default gains hold a speed
+FEW_SAMPLES = (
+    "Only {:.3g} samples a second come: some faults of the encoder's line are not noticed below {:g}, and gains for a "
+    "quicker loop let the motor swing: raise the plant's sample_rate."
+)
 NOT_READY = "Observer and feed-forward are being prepared; the speed is the measured one until then."
 BAD_INFO = "motor/info says {} = {:g}, which cannot be: correct it in the plant. The motor gets 0 V until then."
 
@@ -70,7 +75,7 @@ def config_of(
         reversal_speed=float(values["reversal_speed"]),
         single_channel=single,
         faults=_make_fault_config(float(values["stall_time"]), info),
-        note=_lack(values, info, motor, ready),
+        note=_lack(values, info, motor, ready) or _find_few_samples(info),
         plug_limit=float(values["plug_limit"]),
         latency_limit=max(float(values["latency_limit"]), two_samples),
         reference_timeout=float(values["reference_timeout"]),
@@ -132,6 +137,12 @@ def _lack(values: Mapping[str, Value], info: Info | None, motor: Parameters | No
     if source == OBSERVER and info is None:
         return NO_INFO
     return NO_EDGES if source == OBSERVER and info and info.measurement is not Measurement.EDGES else ""
+
+
+def _find_few_samples(info: Info | None) -> str:
+    """Find that the plant samples too seldom for the checks for faults, as a sentence; "" if it does not."""
+    few = info is not None and info.sample_period * SLOWEST > 1.01  # a board rounds it
+    return FEW_SAMPLES.format(1.0 / info.sample_period, SLOWEST) if info is not None and few else ""
 
 
 def _add_model(config: Config, values: Mapping[str, Value], info: Info | None, motor: Parameters) -> Config:

@@ -40,6 +40,15 @@ def test_the_observer_needs_to_know_the_encoder() -> None:
     assert known.note == "" and known.observer is not None
 
 
+@pytest.mark.parametrize(("rate", "few"), [(10.0, True), (61.0, True), (99.5, False), (100.0, False), (1000.0, False)])
+def test_samples_that_are_too_few_for_the_checks_are_said(rate: float, few: bool) -> None:
+    """At 10 Hz the default gains swing from 0 to 0.89 of the top speed, and nobody said a word."""
+    config = config_of(DEFAULTS, Info(sample_period=1.0 / rate))
+    output, _ = controller.update(config, controller.State(), Sample(0, 50.0, 0.0), 60.0, 0.0)
+    assert output.state == controller.RUNNING and output.warning == few
+    assert output.reason == "" if not few else f"Only {rate:.3g} samples a second" in output.reason
+
+
 @pytest.mark.parametrize(("quadrature", "even"), [(0, True), (1, True), (2, False), (4, False)])
 def test_edges_are_even_where_one_flank_a_period_is_counted(quadrature: int, even: bool) -> None:
     assert config_of(DEFAULTS, Info(quadrature=quadrature), None).faults.even == even
