@@ -119,7 +119,7 @@ def test_without_commands_the_pins_go_to_0_v_and_stay_there(bench: Bench, timeou
 
 
 @on_each_chip
-@pytest.mark.parametrize("period", [32_787, 98_361], ids=["61 Hz", "20.33 Hz"])
+@pytest.mark.parametrize("period", [14_355, 32_787, 98_361], ids=["139 Hz", "61 Hz", "20.33 Hz"])
 def test_a_missing_command_is_noticed_at_any_sample_rate(bench: Bench, period: int) -> None:
     """Longest steps of the counter and some us: it was set to what it had passed, and its time fell behind."""
     bench.start(period)

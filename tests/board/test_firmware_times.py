@@ -13,7 +13,7 @@ from motor_board.emulation.edges import Edges, Line
 from motor_board.emulation.shaft import EncoderConfig
 from motor_driver.frames.codes import Flag
 from motor_driver.frames.from_board import Hello, Pong, Telemetry
-from motor_driver.frames.from_host import Command, Configure, Ping
+from motor_driver.frames.from_host import Command, Configure, Ping, Setup
 from motor_driver.protocol import Arrival
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
 from motor_model.simulate import simulate
@@ -99,6 +99,38 @@ def test_noise_that_holds_the_samples_up_does_not_make_its_time_late(bench: Benc
     assert bench.chip.cycle - bench.chip.clock_zero - last.time * TICK < 6 * MS
     off = bench.run_until(lambda: bench.chip.pins.share == 0.0, 300)
     assert 100 * MS <= off - silent <= 106 * MS
+
+
+@on_the_larger_chip_slowly
+@pytest.mark.parametrize("rate", keep_fast([100_000, 150_000, 210_000, 260_000], 150_000, 210_000))
+@pytest.mark.parametrize(("channels", "fold"), [(1, 1), (2, 1), (2, 4)], ids=["one", "two", "two, fourfold"])
+def test_a_storm_of_edges_holds_nothing_up(make_bench: MakeBench, channels: int, fold: int, rate: int) -> None:
+    """It had no time-out meanwhile, was reset, or crashed: ticks in ticks left no room on the stack."""
+    bench = make_bench(config=FirmwareConfig(channels=channels))
+    bench.run(8)
+    bench.send(Setup(fold, 0))
+    bench.run(4)
+    bench.send(Configure(2_000, 100, 0))
+    bench.run(8)
+    bench.enable()
+    bench.emulator._plan = lambda until: bench.emulator.shaft.plan(until)  # type: ignore[method-assign,assignment]
+    gaps = np.maximum(np.random.default_rng(1).exponential(16e6 / rate, rate // 2), 8)
+    cycles = (bench.chip.cycle + np.cumsum(gaps)).astype(np.uint64)
+    falls = np.where(np.arange(len(cycles)) % 2 == 1, Line.A_FALLS if channels == 2 else 0, 0).astype(np.uint8)
+    silent = bench.chip.cycle
+    for k in range(150):
+        if k < 60:
+            bench.send(Command(128))
+            silent = bench.chip.cycle
+        now = np.uint64(bench.chip.cycle)
+        near = (cycles > now) & (cycles <= now + np.uint64(4 * MS))
+        bench.chip.set_edges(int(now), Edges(cycles[near], falls[near]))
+        bench.run(2)
+        if k > 60 and bench.chip.pins.share == 0.0:
+            break
+        assert bench.chip.pins.share == 0.5 or k < 2
+    assert 100 * MS <= bench.chip.cycle - silent <= 110 * MS and bench.chip.resets == 0
+    assert bench.chip.cycle - bench.chip.clock_zero - bench.last(Telemetry).time * TICK < 5 * MS
 
 
 @on_the_larger_chip_slowly

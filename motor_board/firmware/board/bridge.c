@@ -112,8 +112,9 @@ void bridge_write(int16_t duty, uint8_t decay, uint8_t pwm)
     }
 }
 
-bool bridge_in_middle(void)
+bool bridge_in_middle(uint8_t *phase)
 {
-    uint8_t counter = (uint8_t)(pulse == PULSE_ON_ENABLE ? ENABLE_COUNTER : INPUT_COUNTER);
-    return pulse == NO_PULSE || (uint8_t)(counter - middle + EARLY) < WINDOW;
+    uint8_t counter = (uint8_t)(pulse == PULSE_ON_ENABLE ? ENABLE_COUNTER : INPUT_COUNTER), before = *phase;
+    *phase = (uint8_t)(counter - middle + EARLY);
+    return pulse == NO_PULSE || *phase < WINDOW || *phase < before;
 }

@@ -27,7 +27,7 @@ void bridge_start(void);
 void bridge_write(int16_t duty, uint8_t decay, uint8_t pwm);
 
 /* Whether a conversion that is started now holds its input in the middle of a pulse; always, where there is none or it
- * is too short to be hit (silent PWM). */
-bool bridge_in_middle(void);
+ * is too short to be hit (silent PWM). `phase` begins as 0: one that an interrupt let pass since the last call counts, too. */
+bool bridge_in_middle(uint8_t *phase);
 
 #endif

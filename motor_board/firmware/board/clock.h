@@ -31,8 +31,8 @@ static inline void clock_start(uint16_t first_compare)
     CLOCK_INTERRUPTS = MOTOR_CURRENT_SENSE ? CLOCK_ALL_AND_SENSE : CLOCK_ALL;
 }
 
-/* Whether the counter has overflowed and its interrupt has not run yet. (Nothing here writes its flags: the interrupts
- * clear their own flags.) */
+/* Whether the counter has overflowed and its interrupt has not run yet. (Only the interrupts clear it and the
+ * tick's flag.) */
 static inline bool clock_overflow_pending(void)
 {
     return CLOCK_FLAGS & CLOCK_OVERFLOWN;

@@ -27,14 +27,19 @@
 #define CLOCK_SENSE OCR5B
 #define CLOCK_INTERRUPTS TIMSK5
 #define CLOCK_ALL (_BV(ICIE5) | _BV(OCIE5A) | _BV(TOIE5))
+#define CLOCK_EDGES _BV(ICIE5)
+#define CLOCK_TICKS _BV(OCIE5A)
 #define CLOCK_ALL_AND_SENSE (CLOCK_ALL | _BV(OCIE5B))
 #define CLOCK_FLAGS TIFR5
 #define CLOCK_OVERFLOWN _BV(TOV5)
 #define CLOCK_TICK_DUE _BV(OCF5A)
+#define CLOCK_EDGE_DUE _BV(ICF5)
 #define CLOCK_CAPTURE_vect TIMER5_CAPT_vect
 #define CLOCK_OVERFLOW_vect TIMER5_OVF_vect
 #define CLOCK_TICK_vect TIMER5_COMPA_vect
 #define CLOCK_SENSE_vect TIMER5_COMPB_vect
+
+#define EDGES_LEFT GPIOR0 /* interrupts of edges that there is time for until the next tick; 0: they are off */
 
 #define SERIAL_RECEIVED_vect USART0_RX_vect
 #define SERIAL_EMPTY_vect USART0_UDRE_vect
@@ -45,6 +50,8 @@
 #define LINES_INTERRUPTS EIMSK
 #define LINES_A_CHANGES _BV(INT3)
 #define LINES_B_CHANGES _BV(INT2)
+#define LINES_FLAGS EIFR
+#define LINES_DUE (_BV(INTF2) | _BV(INTF3))
 
 static inline void lines_pull_up(void)
 {

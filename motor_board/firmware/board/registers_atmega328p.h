@@ -26,14 +26,19 @@
 #define CLOCK_SENSE OCR1B
 #define CLOCK_INTERRUPTS TIMSK1
 #define CLOCK_ALL (_BV(ICIE1) | _BV(OCIE1A) | _BV(TOIE1))
+#define CLOCK_EDGES _BV(ICIE1)
+#define CLOCK_TICKS _BV(OCIE1A)
 #define CLOCK_ALL_AND_SENSE (CLOCK_ALL | _BV(OCIE1B))
 #define CLOCK_FLAGS TIFR1
 #define CLOCK_OVERFLOWN _BV(TOV1)
 #define CLOCK_TICK_DUE _BV(OCF1A)
+#define CLOCK_EDGE_DUE _BV(ICF1)
 #define CLOCK_CAPTURE_vect TIMER1_CAPT_vect
 #define CLOCK_OVERFLOW_vect TIMER1_OVF_vect
 #define CLOCK_TICK_vect TIMER1_COMPA_vect
 #define CLOCK_SENSE_vect TIMER1_COMPB_vect
+
+#define EDGES_LEFT GPIOR0 /* interrupts of edges that there is time for until the next tick; 0: they are off */
 
 #define SERIAL_RECEIVED_vect USART_RX_vect
 #define SERIAL_EMPTY_vect USART_UDRE_vect
@@ -44,6 +49,8 @@
 #define LINES_INTERRUPTS PCICR
 #define LINES_A_CHANGES _BV(PCIE0)
 #define LINES_B_CHANGES _BV(PCIE2)
+#define LINES_FLAGS PCIFR
+#define LINES_DUE (_BV(PCIF0) | _BV(PCIF2))
 
 static inline void lines_pull_up(void)
 {

@@ -11,6 +11,7 @@
 #include "bridge.h"
 #include "clock.h"
 #include "config.h"
+#include "encoder.h"
 #include "guard.h"
 #include "registers.h"
 #include "sense.h"
@@ -26,6 +27,7 @@ void tick_start(void)
 #if MOTOR_CURRENT_SENSE
     guard_recall(&board_device.guard, &heat);
 #endif
+    EDGES_LEFT = 0xFF; /* until the first tick */
     clock_start((uint16_t)board_device.compare);
 }
 
@@ -54,14 +56,16 @@ static void copy_edges(struct edge_timer *edges)
     edges->known = edges->known < sure ? edges->known : sure;
 }
 
-/* Edges come first, and noise may hold a tick up until it is time for the next. */
+/* Edges come first, and noise may hold a tick up until it is time for the next. No more are heard until ticks are in time. */
 static void __attribute__((noinline)) catch_up(void)
 {
     ATOMIC_BLOCK(ATOMIC_RESTORESTATE)
     {
-        uint32_t now = board_now();
-        if (device_is_behind(&board_device, now) && !clock_tick_pending()) {
-            CLOCK_TICK = device_catch_up(&board_device, now);
+        uint16_t ahead = (uint16_t)(CLOCK_TICK - CLOCK_COUNTER);
+        if (ahead <= DEVICE_LONGEST_STEP) {
+            encoder_allow(ahead);
+        } else if (!clock_tick_pending()) { /* it has passed the next one already */
+            CLOCK_TICK = device_catch_up(&board_device, board_now());
             if (MOTOR_CURRENT_SENSE) {
                 CLOCK_SENSE = (uint16_t)(board_device.tick - SENSE_LEAD);
             }
@@ -81,6 +85,7 @@ ISR(CLOCK_TICK_vect)
     }
     ticking = true;
     board_woken = true;
+    CLOCK_INTERRUPTS &= (uint8_t)~CLOCK_TICKS; /* not in itself: there is no room for that on the stack */
     sei();
     catch_up();
     if (ticks) {
@@ -96,6 +101,8 @@ ISR(CLOCK_TICK_vect)
         guard_keep(&board_device.guard, &heat);
 #endif
     }
+    cli();
+    CLOCK_INTERRUPTS |= CLOCK_TICKS;
 }
 
 #if MOTOR_CURRENT_SENSE
@@ -105,7 +112,8 @@ ISR(CLOCK_SENSE_vect)
     uint16_t latest = (uint16_t)(CLOCK_SENSE + SENSE_WAIT);
     sei();
     sense_take_supply(&board_device.supply);
-    while (!bridge_in_middle() && !clock_is_past(latest)) {
+    uint8_t phase = 0;
+    while (!bridge_in_middle(&phase) && !clock_is_past(latest)) {
     }
     sense_start_current();
 }
