@@ -174,7 +174,7 @@ def _select_as_timed(
     doubted = start.timing.filter is not None and selected.selection.model.above_floor
     if not (doubted or set(LAGS).intersection(selected.effects)):
         return start, selected
-    timing = find_timing_beside(first, selected.selection, filtered=not doubted)
+    timing = find_timing_beside(first, selected.selection, filtered=not doubted, lagging=True)
     most = thresholds.HALVED_GAP if doubted else thresholds.GAP_CHANCE
     if timing == start.timing:
         return start, selected

@@ -207,7 +207,7 @@ def test_a_filter_behind_which_much_is_left_is_doubted(
     smoothed = replace(ASSUMED, filter=SpeedFilter("twice", 0.3))
     asked: list[bool] = []
 
-    def look(first: Any, selection: Any, filtered: bool = True) -> Timing:
+    def look(first: Any, selection: Any, filtered: bool = True, **_: Any) -> Timing:
         asked.append(filtered)
         return smoothed if filtered else OTHERS[0]
 
