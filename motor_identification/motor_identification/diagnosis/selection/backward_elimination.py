@@ -15,6 +15,7 @@ from motor_identification.diagnosis.candidate_fit import (
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.evidence.angle_evidence import find_angle_friction
+from motor_identification.diagnosis.evidence.drooping_evidence import find_droop
 from motor_identification.diagnosis.evidence.presliding_evidence import find_presliding
 from motor_identification.diagnosis.evidence.replacement import is_better
 from motor_identification.diagnosis.evidence.slewing_evidence import find_slewing
@@ -93,6 +94,7 @@ def _find_outside(effects: Sequence[str], without: Model, current: Model) -> Str
     for effect in effects:
         presliding = find_presliding(without, current) if EFFECT_BY_NAME[effect].after_reversals else None
         found = presliding or find_slewing(effect, without, current) or find_angle_friction(effect, without, current)
+        found = found or find_droop(effect, without, current)
         if found is not None:
             return found
     return None

@@ -12,7 +12,7 @@ from motor_identification.diagnosis.evidence.calm_evidence import explains_calm
 from motor_identification.diagnosis.evidence.standstill_evidence import explains_standstills
 from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
 from motor_identification.discrepancy.free_curves import PAST, REPEATING
-from motor_identification.validation.instants import needs_instant
+from motor_identification.validation.instants import comes_slowly, needs_instant
 from motor_model.effect import Effect
 from motor_model.effects import EFFECT_BY_NAME, LAGS
 
@@ -24,7 +24,8 @@ def drop_stand_ins(selection: Selection) -> Selection:
     the spectrum over the angle is its own evidence, and so is a standstill under a voltage, or friction nearly all of
     the time. Where what is left comes and goes whatever the motor does, no finding that answers its motion stands in
     for that; and no friction for what goes with the past, such as a sensor's filter. Where nothing else is left, nor
-    does anything that is said by speed and voltage of the moment, as a coasting bridge is: those are explained.
+    does anything that is said by speed and voltage of the moment, as a coasting bridge is: those are explained. Nor does a
+    warming-up that is not quite the table's, as where the heat follows the drive.
     """
     if selection.model.complete:
         return selection
@@ -34,7 +35,8 @@ def drop_stand_ins(selection: Selection) -> Selection:
     for i, step in enumerate(selection.steps):
         effect = EFFECT_BY_NAME[step.found.effect]
         answers = (apart and not effect.anywhere) or (past and effect.holds) or (past_alone and _is_static(effect))
-        stays = step.explains > (thresholds.APART_SHARE if answers else thresholds.STAND_IN_SHARE)
+        least = thresholds.SLOW_SHARE if apart and comes_slowly(effect.name) else thresholds.STAND_IN_SHARE
+        stays = step.explains > (thresholds.APART_SHARE if answers else least)
         after = selection.steps[i + 1].before if i + 1 < len(selection.steps) else selection.model
         if not stays and not is_own_evidence(step.found.effect, step.before, after):
             return replace(selection, steps=selection.steps[:i], model=step.before)

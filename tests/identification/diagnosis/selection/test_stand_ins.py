@@ -70,7 +70,9 @@ def test_what_holds_the_motor_is_its_own_evidence_where_it_explains_standstills(
         ("coast_drive", 0.9, ("past", "speed_voltage"), 0),
         ("backlash", 0.9, ("past",), 0),
         ("warm_up", 0.9, ("past",), 0),
-        ("warm_up", 0.9, ("time",), 0),
+        ("warm_up", ABOVE * thresholds.SLOW_SHARE, ("time",), 1),  # heated otherwise than the table has it
+        ("warm_up", BELOW * thresholds.SLOW_SHARE, ("time",), 0),
+        ("load_step", 0.9, ("time",), 0),
         ("coulomb_friction", 0.9, ("angle", "time"), 1),
     ],
 )

@@ -1,0 +1,87 @@
+"""Judge a warming-up by a supply that runs down: both make a motor slower and slower while it runs.
+
+Of a winding that heats up, the motor needs more voltage for every torque; of a battery that runs down, or a regulator
+that gives way, less of every command arrives, whatever the torque. That is not in the table. Here the recorded voltage
+falls by 1 − d·(1 − e^(−t/τ)) before the motor gets it.
+"""
+
+from dataclasses import replace
+from math import exp
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+
+from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.fits.disturbed_fit import fit_beside_torque, list_error_data
+from motor_identification.diagnosis.fits.effect_fit import drop_effect
+from motor_identification.discrepancy.free_curves import BY_TIME
+from motor_identification.discrepancy.structure import Structure
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.least_squares import fit_speeds
+from motor_identification.noise.error_data import log_likelihood
+from motor_identification.noise.gain_learning import score_under_own_errors
+from motor_identification.recording import Recording
+from motor_identification.validation.instants import comes_slowly
+
+CAUSE = "a supply that runs down, by {:.0%} within the recording (a battery, or a regulator that gives way)"
+TIMES = (0.15, 0.5, 3.5)  # of the longest recording: constants in which it runs down
+MOST_DROOP = 0.5  # of the voltage at the start
+PRECISION, MOST_FITS = 0.005, 8  # of the droop at the end of a recording, and fits that find it
+
+
+def find_droop(effect: str, without: Model, current: Model) -> Structure | None:
+    """Find the supply that runs down and makes the motion likelier than the warming-up of a model.
+
+    without: the model that lacks the warming-up. None where it does not stand in for such a supply.
+    """
+    if not comes_slowly(effect) or not (current.beside_torque or current.above_floor):
+        return None
+    bare = drop_effect(current.estimate, effect)
+    having, lacking = _score(current.estimate, current), _score(without.estimate, current)
+    duration = max(recording.duration for recording in bare.problem.recordings)
+    likelihood, droop, drooping = max(
+        (_find_likeliest(bare, current, share * duration) for share in TIMES), key=lambda found: found[0]
+    )
+    if likelihood <= having or (gain := _score(drooping, current)) <= having + thresholds.DROOPING_GAIN:
+        return None
+    share = 1.0 - drooping.cost / without.estimate.cost
+    return Structure(BY_TIME, share, gain - lacking, relevant=True, cause=CAUSE.format(droop))
+
+
+def _find_likeliest(bare: Estimate, current: Model, time: float) -> tuple[float, float, Estimate]:
+    """Find the droop at the longest recording's end with which the motion is likeliest, for a time constant [s].
+
+    Returns the likelihood under a model's errors, the droop and the fit.
+    """
+    ends = 1.0 - exp(-max(recording.duration for recording in bare.problem.recordings) / time)
+    fits: dict[float, tuple[float, Estimate]] = {}
+
+    def fit(droop: float) -> float:
+        fitted = _fit_drooping(bare, current, droop / ends, time)
+        fits[droop] = log_likelihood(list_error_data(fitted), current.errors, current.lag), fitted
+        return -fits[droop][0]
+
+    options = {"xatol": PRECISION, "maxiter": MOST_FITS}
+    found = minimize_scalar(fit, bounds=(0.0, MOST_DROOP * ends), method="bounded", options=options)
+    likelihood, fitted = fits[float(found.x)]
+    return likelihood, float(found.x), fitted
+
+
+def _fit_drooping(estimate: Estimate, current: Model, droop: float, time: float) -> Estimate:
+    """Fit an estimate again to recordings under a supply that runs down, as a model was fitted."""
+    drooping = tuple(run_down(recording, droop, time) for recording in estimate.problem.recordings)
+    begin = estimate.on(replace(estimate.problem, recordings=drooping))
+    return fit_speeds(begin) if current.learned is None else fit_beside_torque(begin, current.learned)
+
+
+def _score(estimate: Estimate, current: Model) -> float:
+    """Compute the log likelihood of what is left, under errors that are learned of it."""
+    rows = list_error_data(estimate)
+    return score_under_own_errors(rows, estimate.lag, current.errors, thresholds.CANDIDATE_EVALUATIONS)
+
+
+def run_down(recording: Recording, droop: float, time: float) -> Recording:
+    """Make a recording's voltage fall by a share of itself, with a time constant [s] from its start on."""
+    since = recording.time - recording.time[0]
+    return replace(recording, voltage=recording.voltage * (1.0 - droop * (1.0 - np.exp(-since / time))))
