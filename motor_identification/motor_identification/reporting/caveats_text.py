@@ -10,6 +10,7 @@ from motor_identification.diagnosis.thresholds import EXPLAINED_GAP, WILD_TIME
 from motor_identification.noise.error_model import Disturbance
 from motor_identification.recording import Floats
 from motor_identification.reporting.numbers import format_measured
+from motor_identification.validation.held_out import HeldOut
 from motor_model.effects import EFFECT_BY_NAME
 
 TOO_STRONG = (
@@ -21,6 +22,14 @@ QUICK = (
     " It lasts for less than a row and is {:.2g} % of the voltage that was applied: rather noise of the sensor, or "
     "stamps that are off by a part of a row."
 )
+LARGE = (
+    " That is {:.2g} % of the {:.3g} V that was applied at most{}: the voltage that was logged is probably not what "
+    "drove the motor."
+)
+STOOD = ", under half of which and more it stood for {:.2g} s after it had turned"
+LARGE_SHARE = 0.5  # of the largest voltage: a motor on which a random torque of more acts follows something else
+SLOW = 0.05  # of the largest speed: below it a motor has stopped
+STOOD_SHARE = 0.1  # of the time in which it was driven by a large voltage: less may be a start, or a turn
 MUCH = 0.02  # of the largest voltage: the RMS of a torque that is no trifle
 NEGLIGIBLE = 1e-4  # of the largest voltage: the RMS of a torque that leaves nothing of a gap
 BREAKAWAY, PEAKS = "breakaway_voltage", 3.0  # standard deviations that a torque reaches now and then
@@ -93,7 +102,25 @@ def describe_disturbance(diagnosis: Diagnosis) -> str:
     strong = TOO_STRONG.format(largest) if found.rms_voltage > largest else ""
     if not strong and found.rms_voltage > MUCH * largest and found.correlation_time < row:
         strong = QUICK.format(100.0 * found.rms_voltage / largest)
+    if not strong and found.rms_voltage > LARGE_SHARE * largest:
+        strong = LARGE.format(100.0 * found.rms_voltage / largest, largest, _describe_stop(diagnosis.after, largest))
     return torque + strong + _describe_breakaway(diagnosis.findings, found)
+
+
+def _describe_stop(held: HeldOut, largest: float) -> str:
+    """Say for how long motors stood under a large voltage after they had turned; empty where that is next to nothing.
+
+    largest: [V] of all recordings.
+    """
+    stood = driven = 0.0
+    for recording, data in zip(held.recordings, held.intervals, strict=True):
+        middle = 0.5 * (data.time[data.first] + data.time[data.last])
+        row = np.maximum(np.searchsorted(recording.time, middle, "right") - 1, 0)
+        large = np.abs(recording.voltage[row]) > LARGE_SHARE * largest
+        slow = np.abs(data.speed) < SLOW * float(np.max(np.abs(data.speed), initial=0.0))
+        driven += float(data.duration[large].sum())
+        stood += float(data.duration[large & slow & np.logical_or.accumulate(~slow)].sum())
+    return STOOD.format(stood) if stood > STOOD_SHARE * driven else ""
 
 
 def describe_few_values(diagnosis: Diagnosis) -> str:

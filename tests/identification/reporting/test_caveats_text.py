@@ -31,6 +31,28 @@ def test_a_torque_above_all_that_was_applied_is_none(
     assert (f"That is more than the {largest:.3g} V that was applied: rather noise of the sensor" in text) is said
 
 
+@pytest.mark.parametrize(("share", "said"), [(0.49, False), (0.51, True), (0.97, True), (1.05, False)])
+def test_beside_a_torque_of_half_the_voltage_something_else_drove_the_motor(
+    variants: dict[Verdict, Diagnosis], share: float, said: bool
+) -> None:
+    """A log said -4 V all the time, under which a robot's wheel stopped: "a torque of 3.88 V RMS", and no more."""
+    one = variants[Verdict.UNDECIDED]
+    largest = max(float(np.abs(recording.voltage).max()) for recording in one.after.recordings)
+    large = replace(one, disturbance=Disturbance(share * largest, 0.1, 0.2, 0.1))
+    words = f"That is {100.0 * share:.2g} % of the {largest:.3g} V that was applied at most"
+    cause = "the voltage that was logged is probably not what drove the motor."
+    assert (f"{words}: {cause}" in summarize_diagnosis(large)) is said
+    driven = tuple(replace(one, voltage=np.full(len(one), largest)) for one in large.after.recordings)
+    for part, longer in ((0.88, True), (0.92, False)):  # of the time, in which it turns at all
+        shares = [np.cumsum(data.duration) / data.duration.sum() for data in large.after.intervals]
+        speeds = [np.where(share < part, 9.0, 0.1) for share in shares]
+        rows = zip(large.after.intervals, speeds, strict=True)
+        stopped = replace(large.after, recordings=driven, intervals=tuple(replace(d, speed=v) for d, v in rows))
+        text = summarize_diagnosis(replace(large, after=stopped))
+        assert (f"{words}, under half of which and more it stood for " in text) is (said and longer)
+        assert (cause in text) is said
+
+
 @pytest.mark.parametrize(
     ("share", "rows", "said"), [(0.12, 0.99, True), (0.12, 1.01, False), (0.021, 0.5, True), (0.019, 0.5, False)]
 )
