@@ -46,6 +46,8 @@ class Finding:
     ambiguous_with: tuple[str, ...]  # effects that explain as much in this recording
     suggested_experiment: str  # a profile that would tell them apart; empty if none is needed
     sensor_may_lag: bool = False  # a lag that speeds leave, too, which were smoothed or late before they were logged
+    beside_torque: bool = False  # the model without it was fitted beside a random torque
+    given_up: tuple[str, ...] = ()  # effects that the model without it had, and the final one has not
 
     @property
     def has_size(self) -> bool:

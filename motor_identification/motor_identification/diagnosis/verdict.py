@@ -146,6 +146,8 @@ def _make_finding(step: SelectionStep, model: Fit, gap_after: float, unseen: Seq
         ),
         ambiguous_with=also,
         suggested_experiment=suggest_profile(also),
+        beside_torque=step.before.beside_torque,
+        given_up=tuple(name for name in step.before.effects if name not in model.parameters.effects),
     )
 
 

@@ -46,6 +46,11 @@ class Structure:
         """Whether it is there, and more than a sensor's pattern."""
         return self.significance > CERTAIN and (self.relevant or self.share > LEAST_SHARE)
 
+    @property
+    def most(self) -> float:
+        """Its share, of all that is left at most: one that the white residual tells is scaled up, and may be more."""
+        return min(self.share, 1.0)
+
 
 def find_structure(own: Sequence[Rest], others: Sequence[Rest], model: ErrorModel, lag: Lag) -> tuple[Structure, ...]:
     """Judge every family of curves, the one that predicts most first.
@@ -75,7 +80,7 @@ def rank(found: Sequence[Structure]) -> tuple[Structure, ...]:
     """
 
     def key(one: Structure) -> tuple[bool, float]:
-        share = one.share * (OF_TIME if one.variable in OF_ONE_RECORDING else 1.0)
+        share = one.most * (OF_TIME if one.variable in OF_ONE_RECORDING else 1.0)
         return not one.certain, -share if one.certain else -one.significance
 
     return tuple(sorted(found, key=key))

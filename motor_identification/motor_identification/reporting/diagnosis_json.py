@@ -54,7 +54,7 @@ def _structure_to_json(one: Structure) -> dict[str, Any]:
     variable = VARIABLES.get(one.variable, one.variable)
     return {
         "variable": variable,
-        "share": to_number(one.share),
+        "share": to_number(one.most),
         "significance": to_number(one.significance),
         "cause": one.cause or None,
     }

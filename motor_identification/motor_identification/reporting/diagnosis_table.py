@@ -1,10 +1,18 @@
 """A diagnosis as a table for a terminal: the gap effect by effect, parameters, and the evidence for every effect."""
 
+from itertools import pairwise
+
 from motor_identification.diagnosis.result import Diagnosis, Finding
-from motor_identification.reporting.names import effect_name, join_names
+from motor_identification.reporting.names import effect_name, join_effects, join_names
 from motor_identification.reporting.numbers import format_quantity
 from motor_identification.uncertainty.result import Fit
 from motor_model.text_table import align_columns
+
+RISES = 1.01  # times the gap of the row before: more is no matter of how far a fit had converged
+ROWS = "A row's gap is that of the search as it got there, and need not fall: {}. Compare the first with the last."
+BESIDE_TORQUE = "from {} on it went on beside a random torque, where the model before left {:.3g} rad/s"
+GIVEN_UP = "{} was found beside {}, which was given up later"
+LIKELIER = "what is likelier on unseen motion may leave more"
 
 
 def format_diagnosis(diagnosis: Diagnosis) -> str:
@@ -15,7 +23,19 @@ def format_diagnosis(diagnosis: Diagnosis) -> str:
         also = "".join(f" or {name}" for name in one.ambiguous_with)
         rows.append((f"+ {one.effect}{also}", *_format_gap(diagnosis, one.gap_after), format_parameters(one)))
     rows.append(("noise floor", *_format_gap(diagnosis, diagnosis.noise_floor), ""))
-    return "\n".join((align_columns(rows), *map(_describe_evidence, diagnosis.findings)))
+    rises = [said] if (said := describe_rises(diagnosis)) else []
+    return "\n".join((align_columns(rows), *map(_describe_evidence, diagnosis.findings), *rises))
+
+
+def describe_rises(diagnosis: Diagnosis) -> str:
+    """Say why the gap of a row is above that of the row before; empty where none is."""
+    found = diagnosis.findings
+    gaps = [diagnosis.gap_before, *(one.gap_after for one in found)]
+    if not any(after > RISES * before for before, after in pairwise(gaps)):
+        return ""
+    beside = [BESIDE_TORQUE.format(effect_name(one.effect), one.gap_before) for one in found if one.beside_torque][:1]
+    without = [GIVEN_UP.format(effect_name(one.effect), join_effects(one.given_up)) for one in found if one.given_up]
+    return ROWS.format("; ".join((*beside, *without)) or LIKELIER)
 
 
 def _describe_evidence(finding: Finding) -> str:

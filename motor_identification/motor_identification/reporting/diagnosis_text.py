@@ -135,7 +135,7 @@ def _describe_structure(diagnosis: Diagnosis) -> str:
     certain = [one for one in diagnosis.structure if one.certain]
     if not certain:
         return ""
-    most, share = certain[0], min(100.0 * certain[0].share, 100.0)
+    most, share = certain[0], 100.0 * certain[0].most
     if most.cause:
         return f"Of what is left, {share:.0f} % is what {most.cause} would leave."
     return f"Of what is left, {share:.0f} % can be predicted from the {STRUCTURE_NAMES[most.variable]}."

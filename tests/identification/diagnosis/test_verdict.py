@@ -4,8 +4,8 @@ from dataclasses import replace
 from typing import cast
 
 import pytest
-from diagnosed import fitted
-from stub_models import StubModel, short_by, stub_model, stub_test
+from diagnosed import fitted, with_effect
+from stub_models import StubModel, short_by, stub_model, stub_test, with_effects
 from stub_selections import selection_of, step_of
 
 from motor_identification.diagnosis import thresholds
@@ -24,6 +24,7 @@ from motor_identification.diagnosis.verdict import (
 )
 from motor_identification.discrepancy.structure import LEAST_SHARE, Structure
 from motor_identification.estimation.request import SearchReport
+from motor_identification.noise.error_model import ErrorModel
 from motor_identification.uncertainty.summary import summarise_fit
 from motor_model.effects import EFFECT_BY_NAME
 
@@ -258,3 +259,19 @@ def test_what_a_model_lacks_that_is_no_motor_is_undecided(monkeypatch: pytest.Mo
         monkeypatch.setattr(verdicts, "find_undetectable", lambda model: ())
         found = conclude(selection.model, selection, bags, (), cast(SearchReport, None), lambda: 0.0)
         assert (found.verdict, found.is_of_no_motor) == (verdict, hit)
+
+
+@pytest.mark.parametrize("beside", [True, False])
+def test_a_finding_says_what_it_was_found_beside_and_is_no_more(beside: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Gaps of 0.390, 0.326 and 0.385 rad/s had an eccentric disc in between, of which nothing was certain."""
+    estimate, hold_out = fitted(ks=0.45)
+    last = begin_selection(with_effect(estimate, "coulomb_friction", {"ks": 0.45}), hold_out, 1).model
+    before = with_effects(stub_model(9.0), "encoder_eccentricity", "coulomb_friction")
+    before = replace(before, learned=cast(ErrorModel, beside or None))
+    selection = selection_of(last, step_of(stub_test("coulomb_friction", before, 5.0, 100.0)))
+    monkeypatch.setattr(verdicts, "find_undetectable", lambda model: ())
+    monkeypatch.setattr(verdicts, "find_missed_edges", lambda model: None)
+    monkeypatch.setattr(verdicts, "_locate", lambda step: "")
+    bags = estimate.problem.recordings
+    (found,) = conclude(last, selection, bags, (), cast(SearchReport, None), lambda: 0.0).findings
+    assert found.given_up == ("encoder_eccentricity",) and found.beside_torque is beside

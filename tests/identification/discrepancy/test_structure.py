@@ -1,6 +1,7 @@
 """What a model lacks is told from what is random, and in which variable it is; ridge and lines on made-up numbers."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import cast
 
 import numpy as np
@@ -91,6 +92,9 @@ def test_time_comes_first_only_where_no_motion_tells_half_as_much(motion: float,
     assert ranked[0].variable == first
     assert [one.variable for one in rank(found[::-1])] == [one.variable for one in ranked]
     assert ranked[-1].variable == ("past" if motion < LEAST_SHARE else "angle")
+    above = replace(found[0], variable="spectrum", share=1.45)  # as the white residual tells it, which is no share
+    assert rank([above, *found[1:]])[0].variable == ("past" if first == "past" else "spectrum")
+    assert above.most == 1.0 and found[1].most == motion
 
 
 @pytest.mark.slow

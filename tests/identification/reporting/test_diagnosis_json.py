@@ -55,6 +55,8 @@ def test_a_random_torque_and_what_curves_predict(found: Diagnosis) -> None:
     assert [one["variable"] for one in content["structure"]] == ["drive", "speed"]
     assert content["structure"][1] == {"variable": "speed", "share": 0.2, "significance": 12.0, "cause": None}
     assert content["structure"][0]["cause"] == "a ramp"
+    above = replace(found, structure=(Structure("spectrum", 1.45, 189.0),))
+    assert diagnosis_to_json(above)["structure"][0]["share"] == 1.0  # of all, at most
     assert content["not_testable"] == content["undetectable"]
     assert content["gain_scatter"] is None
     assert diagnosis_to_json(replace(found, gain_scatter=0.021))["gain_scatter"] == 0.021

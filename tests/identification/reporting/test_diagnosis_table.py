@@ -1,9 +1,10 @@
 """The table of a diagnosis: its numbers are the diagnosis' own."""
 
 import re
+from dataclasses import replace
 
 from motor_identification.diagnosis.result import Diagnosis
-from motor_identification.reporting.diagnosis_table import format_diagnosis
+from motor_identification.reporting.diagnosis_table import describe_rises, format_diagnosis
 
 
 def test_the_table_has_the_numbers(found: Diagnosis) -> None:
@@ -14,3 +15,24 @@ def test_the_table_has_the_numbers(found: Diagnosis) -> None:
     assert (
         lines[3].startswith("noise floor") and lines[4] == f"Evidence for Coulomb friction: {found.findings[0].where}"
     )
+
+
+def test_a_row_above_the_one_before_is_explained(found: Diagnosis) -> None:
+    """Rows of 19.4, 30.4 and 7.0 rad/s were no chain: beside a torque the first one's model had left 49."""
+    (ks,) = found.findings
+    coast = replace(ks, effect="coast_drive", gap_before=49.0, gap_after=30.4, beside_torque=True)
+    chain = replace(found, gap_before=19.4, findings=(coast, replace(ks, gap_before=30.4, gap_after=7.0)))
+    said = describe_rises(chain)
+    assert "from coast drive on it went on beside a random torque, where the model before left 49 rad/s." in said
+    assert "Compare the first with the last." in said and format_diagnosis(chain).splitlines()[-1] == said
+    # 0.390, 0.326 and 0.385, where the first finding was beside an eccentric disc of which nothing was certain.
+    other = replace(coast, gap_before=0.329, gap_after=0.326, beside_torque=False, given_up=("encoder_eccentricity",))
+    rows = (other, replace(ks, gap_before=0.326, gap_after=0.385))
+    said = describe_rises(replace(found, gap_before=0.39, findings=rows))
+    assert "coast drive was found beside encoder eccentricity, which was given up later." in said
+    rows = tuple(replace(one, given_up=()) for one in rows)
+    assert "what is likelier on unseen motion may leave more." in describe_rises(replace(found, findings=rows))
+    for last, told in ((30.1, False), (30.5, True)):
+        falls = replace(coast, gap_before=19.4, gap_after=last)
+        assert bool(describe_rises(replace(found, gap_before=30.0, findings=(falls,)))) is told
+    assert describe_rises(found) == "" and "row" not in format_diagnosis(found)

@@ -1,6 +1,7 @@
 """The limits of a diagnosis in sentences: what the recording could not show, what was left out, the noise floor."""
 
 from motor_identification.diagnosis.result import Diagnosis
+from motor_identification.reporting.diagnosis_table import describe_rises
 from motor_identification.reporting.diagnosis_text import SEEN
 from motor_identification.reporting.names import effect_name, join_names
 from motor_model.effects import EFFECT_BY_NAME
@@ -19,6 +20,7 @@ def list_limits(diagnosis: Diagnosis) -> list[str]:
         *_left_out(diagnosis),
         *_noise_floor(diagnosis),
         _validated_by(diagnosis),
+        *filter(None, (describe_rises(diagnosis),)),
         *dict.fromkeys((*diagnosis.model.notes, *_notes(diagnosis))),
     ]
 

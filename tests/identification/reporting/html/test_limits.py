@@ -25,6 +25,8 @@ def test_every_limit_has_its_sentence(found: Diagnosis) -> None:
     ) in said
     alone = list_limits(replace(found, slot_share=0.0))
     assert f"The noise floor is {tick:.3g} rad/s from the timer's tick of 4 µs." in alone  # one part is no sum
+    (rises,) = (one for one in list_limits(replace(found, gap_before=0.5 * found.gap_after)) if "need not fall" in one)
+    assert rises.endswith("Compare the first with the last.") and rises not in said
     assert "Validated on held_out.bag; no physical parameter was fitted to this motion." in said
 
 
