@@ -41,9 +41,9 @@ def list_candidates(effects: Sequence[str], judged: HeldOut | None = None, besid
     model lacks, unless it has to be likelier than a slow torque of one recording (`beside_torque`), and nothing that
     happens once in each of several recordings; and in a single response nothing that happens once or repeats with the
     angle: some instants, or some line, are found in any. Where a command's frequency goes one way, nothing that comes
-    slowly: whatever depends on frequency does. Where values have white noise and nothing is counted, as a
-    tachogenerator's, there is no disc for anything to be on; and where rows of speeds are uneven it does not show. What
-    voltage a motor breaks away at is not seen under one voltage, at which it does.
+    slowly: whatever depends on frequency does; nor in seconds, in which nothing has come. Where values have white noise
+    and nothing is counted, as a tachogenerator's, there is no disc for anything to be on; and where rows of speeds are
+    uneven it does not show. What voltage a motor breaks away at is not seen under one voltage, at which it does.
     """
     return [
         effect.name
@@ -62,10 +62,20 @@ def _can_be_judged(effect: Effect, judged: HeldOut, beside_torque: bool) -> bool
         return False
     if comes_slowly(effect.name) and judged.recordings and all(map(is_sweep, judged.recordings)):
         return False
+    if is_over_too_soon(effect.name, judged):
+        return False
     if not judged.seen or not (effect.anywhere or effect.periodic):
         return True
     once = (needs_instant(effect.name) or beside_torque) and len(judged.recordings) == 1
     return judged.confirms and (effect.periodic or once)
+
+
+def is_over_too_soon(effect: str, judged: HeldOut) -> bool:
+    """Decide whether recordings are over before an effect that comes slowly, such as a warming-up, can have come."""
+    if not comes_slowly(effect) or not judged.recordings:
+        return False
+    least = min(thresholds.SLOW_TIME, thresholds.SLOW_CONSTANTS * judged.parameters.time_constant)
+    return max(recording.duration for recording in judged.recordings) < least
 
 
 def try_effects(

@@ -165,6 +165,10 @@ REFINEMENTS, HELD_BACK, HELD_BACK_GAP = 3, 10.0, 0.95
 VERIFICATIONS = 3
 # Cycles a turn, beside one: a torque so near to it is what such slots do, where they are likelier. Measured: 3e-5.
 ONCE_A_TURN = 0.05
+# [s], and time constants of the motor, of which a recording that lasts for less than either does not show what comes
+# slowly: a winding heats up within many of them, and hardly within seconds. Measured: a warming-up by 0.6, the most
+# that is searched, in 3.8 s and 36 of them of a toy robot with a dead zone.
+SLOW_TIME, SLOW_CONSTANTS = 10.0, 300.0
 # Of a recording, from when its motor is first driven or moves: what begins within it is there from the start. Measured:
 # 0.0 to 0.003 s for a load that came in with the initial speed of a real motor; 0.06 of 8 s after the first step for a
 # friction that builds up.

@@ -8,8 +8,8 @@ import numpy as np
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.detectability import find_undetectable
-from motor_identification.diagnosis.effect_test import list_candidates, sort_by_table
-from motor_identification.diagnosis.evidence.command_evidence import find_ignored
+from motor_identification.diagnosis.effect_test import is_over_too_soon, list_candidates, sort_by_table
+from motor_identification.diagnosis.evidence.command_evidence import find_ignored, goes_with_sweep
 from motor_identification.diagnosis.evidence.line_evidence import list_unseen_disc
 from motor_identification.diagnosis.evidence.missed_edges import count_missed_edges
 from motor_identification.diagnosis.result import Alternative, Diagnosis, Finding, Nearest, Verdict, list_vague
@@ -82,7 +82,7 @@ def list_unjudged_effects(selection: Selection) -> tuple[str, ...]:
 
     Nothing says then that it is outside the table. Under a sweep whatever depends on the frequency goes with the time,
     and times between edges do not count the angle. Measured: a warming-up by 0.24 beside a dead time, of which the time
-    predicts 76 %, and an eccentric disc of which the angle does 100.
+    predicts 76 %, and an eccentric disc of which the angle does 100. What cannot have come yet is none of them.
     """
     last = selection.model
     certain = [one for one in selection.structure if one.certain]
@@ -93,7 +93,8 @@ def list_unjudged_effects(selection: Selection) -> tuple[str, ...]:
     if belongs is None:
         return ()
     known = {*last.effects, *list_candidates(last.effects, last.held, last.beside_torque)}
-    return tuple(name for name in EFFECT_BY_NAME if belongs(name) and name not in known)
+    names = [name for name in EFFECT_BY_NAME if belongs(name) and name not in known]
+    return tuple(name for name in names if not is_over_too_soon(name, last.held))
 
 
 def _is_periodic(effect: str) -> bool:
@@ -206,6 +207,7 @@ def decide(
         # the fit has seen, a small share of it: measured, 4 % by the angle of a real robot whose rows come late.
         least = LEAST_SHARE if last.held.seen else 0.0
         open_ = below or not any(one.certain and one.share > least for one in selection.structure)
+        open_ = open_ or goes_with_sweep(selection.structure, last.held)  # which all that goes with frequency does
         verdict = Verdict.UNDECIDED if open_ else Verdict.UNEXPLAINED
         return verdict, unclear or ("rich" if hidden or below else "")
     if unclear or any(finding.sensor_may_lag for finding in findings):  # of a sensor no experiment tells more

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from math import inf
 
 from motor_identification.diagnosis.candidate_model import find_lasting_interval
-from motor_identification.diagnosis.evidence.command_evidence import Ignored, find_ignored
+from motor_identification.diagnosis.evidence.command_evidence import Ignored, find_ignored, goes_with_sweep
 from motor_identification.diagnosis.result import Diagnosis, Finding, Verdict, list_vague
 from motor_identification.diagnosis.thresholds import EXPLAINED_GAP, SURE_SIZE
 from motor_identification.discrepancy.missing_torque import describe_torque, estimate_missing_torque
@@ -41,6 +41,8 @@ UNPREDICTED = (
     "edges that are missed, or something that was not recorded, may."
 )
 UNMODELLED = "Check for a load, a supply or a sensor that was not recorded; the report shows the residual torque."
+
+SWEPT = "Something is missing that a sweep does not tell, in which what goes with the frequency goes with the time: {}."
 
 STRUCTURE_NAMES = {
     "speed": "speed",
@@ -177,7 +179,8 @@ def _describe_findings(diagnosis: Diagnosis) -> str:
     vague = list_vague(clear)
     sized = [one for one in clear if one not in vague]
     sure = diagnosis.after.confirms and not (diagnosis.is_of_no_motor or diagnosis.time_limit)
-    sure = sure and not (diagnosis.undetermined and diagnosis.leaves_more)  # beside that they may stand in
+    open_ = bool(diagnosis.undetermined) or goes_with_sweep(diagnosis.structure, diagnosis.after)
+    sure = sure and not (open_ and diagnosis.leaves_more)  # beside that they may stand in
     parts = [f"{_describe_found(sized, sure)}."] if sized else []
     parts += [f"{_describe_found(vague, sure=False)}; this recording does not tell how much."] if vague else []
     missing = "is missing" if sure else "may be missing"
@@ -251,6 +254,9 @@ def _describe_no_finding(diagnosis: Diagnosis) -> str:
     ignored = find_ignored(diagnosis.after)
     if ignored is not None:
         return _describe_ignored(ignored)
+    if diagnosis.leaves_more and goes_with_sweep(diagnosis.structure, diagnosis.after):
+        nearest = _describe_nearest(diagnosis)
+        return " ".join(filter(None, (SWEPT.format(_describe_gap(diagnosis)), nearest, _describe_structure(diagnosis))))
     if diagnosis.nearest is not None:
         text = f"Something may be missing that this recording does not tell from chance: {_describe_gap(diagnosis)}."
         return f"{text} {_describe_nearest(diagnosis)}"

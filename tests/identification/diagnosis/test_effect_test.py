@@ -17,6 +17,7 @@ from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.effect_test import (
     choose_finding,
     count_parameters,
+    is_over_too_soon,
     list_candidates,
     sort_by_table,
     try_effects,
@@ -32,6 +33,7 @@ from motor_identification.noise.error_model import ErrorModel
 from motor_identification.recording import Floats, Recording, check
 from motor_identification.validation.hold_out import HoldOut
 from motor_model.effects import EFFECTS
+from motor_model.parameters import Parameters
 
 
 def sine(turns: Floats) -> Recording:
@@ -76,6 +78,32 @@ def test_candidates_are_what_a_model_lacks_and_can_have() -> None:
         assert (
             "static_friction" in list_candidates(("coulomb_friction",), replace(one, recordings=(recording,)))
         ) is told
+
+
+@pytest.mark.parametrize(
+    ("duration", "time_constant", "tried"),
+    [
+        (3.8, 0.106, False),  # seconds, and 36 time constants
+        (9.99, 0.034, False),
+        (10.01, 0.106, True),
+        (3.01, 0.01, True),
+        (2.99, 0.01, False),
+    ],
+)
+def test_nothing_that_comes_slowly_is_looked_for_in_seconds(duration: float, time_constant: float, tried: bool) -> None:
+    """A toy robot was said to warm up by 60 % within 3.8 s, and "It may be warm up" in a chirp of 4 s."""
+    long = sine(np.linspace(0.0, 20.0, 2001))
+    short, longer = (
+        replace(long, sample_time=np.rint(long.sample_time * (much / long.duration)).astype(np.int64))
+        for much in (duration, 20.0)
+    )
+    motor = Parameters({"kv": 0.07, "ka": 0.07 * time_constant})
+    held = replace(stub_model(5.0).held, recordings=(short,), parameters=motor)
+    assert ("warm_up" in list_candidates((), held)) is tried
+    assert is_over_too_soon("warm_up", held) is not tried
+    assert not is_over_too_soon("load_step", held) and not is_over_too_soon("quadratic_drag", held)
+    both = replace(held, recordings=(short, longer))  # one of which is long enough
+    assert "warm_up" in list_candidates((), both)
 
 
 def test_the_most_likely_is_the_finding_not_the_most_relevant() -> None:

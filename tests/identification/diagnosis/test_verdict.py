@@ -109,6 +109,8 @@ def test_what_goes_with_time_or_angle_may_be_what_could_not_be_judged(
     monkeypatch.setattr(verdicts, "list_candidates", lambda *_: judged)
     assert list_unjudged_effects(chosen(stub_model(OVER, 0.0))) == barred
     assert list_unjudged_effects(chosen(stub_model(OVER, 0.0), Structure("past", 0.9, 90.0, True, "a ramp"))) == ()
+    monkeypatch.setattr(verdicts, "is_over_too_soon", lambda effect, _: effect == "warm_up")
+    assert list_unjudged_effects(chosen(stub_model(OVER, 0.0))) == tuple(set(barred) - {"warm_up"})
 
 
 @pytest.mark.parametrize(
@@ -245,6 +247,16 @@ def test_what_leaves_less_than_its_own_sensor_lacks_nothing_for_sure(
     """As motors that were fitted as one: it was said to lack something outside the table at 0.36 times its floor."""
     monkeypatch.setattr(StubModel, "sensor_floor", floor)
     assert decide((), chosen(stub_model(OVER, 0.0)), ()) == ended
+
+
+@pytest.mark.parametrize(("swept", "verdict"), [(True, Verdict.UNDECIDED), (False, Verdict.UNEXPLAINED)])
+def test_what_goes_with_the_time_of_a_sweep_may_be_in_the_table(
+    swept: bool, verdict: Verdict, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """In a chirp of 4 s, too short to warm up in, that may be whatever depends on the frequency."""
+    monkeypatch.setattr(verdicts, "goes_with_sweep", lambda structure, held: swept)
+    assert decide((), chosen(stub_model(OVER, 0.0)), ())[0] is verdict
+    assert decide((finding(),), chosen(stub_model(OVER, 0.0)), ())[0] is verdict
 
 
 def test_what_a_model_lacks_that_is_no_motor_is_undecided(monkeypatch: pytest.MonkeyPatch) -> None:

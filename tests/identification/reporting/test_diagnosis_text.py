@@ -68,6 +68,23 @@ def test_an_undecided_recording_without_findings_says_what_it_hides(variants: di
     assert join_effects(tuple(effect.name for effect in EFFECTS)).endswith(f" and {len(EFFECTS) - 6} others")
 
 
+@pytest.mark.parametrize(("swept", "above"), [(True, 1.31), (True, 1.29), (False, 1.31)])
+def test_what_a_sweep_does_not_tell_is_said(
+    swept: bool, above: float, variants: dict[Verdict, Diagnosis], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(diagnosis_text, "goes_with_sweep", lambda structure, held: swept)
+    one = variants[Verdict.EXPLAINED]
+    left = (Structure("time", 0.15, 90.0),)
+    one = replace(one, verdict=Verdict.UNDECIDED, structure=left, gap_after=above * one.sensor_floor, disturbance=None)
+    open_ = swept and above > EXPLAINED_GAP
+    said = summarize_diagnosis(replace(one, findings=()))
+    assert said.startswith("Something is missing that a sweep does not tell") is open_
+    assert ("Of what is left, 15 % can be predicted from the time within the recording." in said) is open_
+    assert "not in the table" not in said
+    found = summarize_diagnosis(one)
+    assert (" may be missing" in found) is open_ and (" was missing" in found) is not open_
+
+
 def test_a_motor_that_no_voltage_moves_like_this_is_said(variants: dict[Verdict, Diagnosis]) -> None:
     one = replace(variants[Verdict.NOTHING_MISSING], verdict=Verdict.UNDECIDED)
     assert "But kv ended" not in summarize_diagnosis(one)

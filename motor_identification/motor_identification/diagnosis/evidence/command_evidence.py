@@ -4,11 +4,15 @@ A random torque is learned from what a model leaves, however much that is. Where
 not belong together, or rows were lost, all of the motion is such a torque, and its gap at the floor.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from motor_identification.diagnosis.candidate_model import find_lasting_interval
+from motor_identification.discrepancy.free_curves import BY_TIME
+from motor_identification.discrepancy.structure import Structure
+from motor_identification.measurement.command_swing import is_sweep
 from motor_identification.validation.held_out import HeldOut
 
 # Of the variance of what lasts in the speed that a model has to explain, if the command varies by as much of its
@@ -38,6 +42,13 @@ def find_ignored(held: HeldOut) -> Ignored | None:
     explained = lasting.gap**2 < (1.0 - LEAST_EXPLAINED) * variation**2
     small = lasting.gap < MATTERS * float(np.hypot(mean, variation))
     return None if explained or small else Ignored(lasting.gap, variation)
+
+
+def goes_with_sweep(structure: Sequence[Structure], held: HeldOut) -> bool:
+    """Decide whether what is left goes with the time, most of all, under sweeps, in which that is the frequency too."""
+    certain = [one for one in structure if one.certain]
+    by_time = bool(certain) and certain[0].variable == BY_TIME and not certain[0].cause
+    return by_time and bool(held.recordings) and all(map(is_sweep, held.recordings))
 
 
 def _varies(held: HeldOut) -> bool:

@@ -92,7 +92,7 @@ def is_needed(step: SelectionStep, model: Model, without: Model) -> bool:
     repeats with the angle makes any gap smaller that it was fitted to; one that is larger than ripples are, and goes
     round more than once a turn, bends it as any curve over the place; and beside a motor whose own back-EMF is not
     determined, anything does. What came at no instant was no step, nor what has a size by chance where everything is
-    explained without it.
+    explained without it; nor is anything of which a size at a limit of the search is all that is known.
     """
     effect = EFFECT_BY_NAME[step.found.effect]
     if effect.periodic and (model.held.seen or is_no_ripple(model, effect.name)):
@@ -101,9 +101,10 @@ def is_needed(step: SelectionStep, model: Model, without: Model) -> bool:
         return False
     if has_vague_instant(effect.name, model) or (without.complete and is_chance_size(effect.name, model)):
         return False
-    told = effect.anywhere or not (
-        step.rivals or any(spec.name in find_limits_hit(model) for spec in effect.parameters)
-    )
+    limits = find_limits_hit(model)
+    if effect.parameters[0].name in limits and is_undetermined(effect.name, model.uncertainty.not_identifiable):
+        return False
+    told = effect.anywhere or not (step.rivals or any(spec.name in limits for spec in effect.parameters))
     return told and without.held.gap > thresholds.WORSE_GAP * model.held.gap
 
 

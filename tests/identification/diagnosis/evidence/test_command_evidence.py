@@ -5,12 +5,14 @@ from functools import cache
 
 import numpy as np
 import pytest
+from stub_models import stub_held
 from swinging import noisy
 
 from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis.evidence import command_evidence
-from motor_identification.diagnosis.evidence.command_evidence import find_ignored
+from motor_identification.diagnosis.evidence.command_evidence import find_ignored, goes_with_sweep
 from motor_identification.diagnosis.result import Diagnosis, Verdict
+from motor_identification.discrepancy.structure import CERTAIN, Structure
 from motor_identification.identify import Request
 from motor_identification.recording import Recording, check
 from motor_identification.reporting.diagnosis_text import summarize_diagnosis
@@ -35,6 +37,26 @@ def wandering() -> Recording:
         walk[k] = 0.995 * walk[k - 1] + random.normal(0.0, 4.0)
     triangle = 2.0 + 10.0 * np.abs((np.linspace(0.0, 3.0, count) % 1.0) - 0.5) * 2.0
     return check(replace(logged, voltage=triangle, speed=200.0 + walk + random.normal(0.0, 6.0, count)))
+
+
+@pytest.mark.parametrize(
+    ("left", "expected"),
+    [
+        ([Structure("time", 0.15, 1.01 * CERTAIN), Structure("angle", 0.12, 5.6)], True),
+        ([Structure("time", 0.15, 0.99 * CERTAIN)], False),
+        ([Structure("angle", 0.16, 7.0), Structure("time", 0.15, 7.0)], False),
+        ([Structure("time", 0.15, 7.0, cause="a load that wanders")], False),
+        ([], False),
+    ],
+)
+def test_what_goes_with_the_time_of_a_sweep_goes_with_its_frequency(left: list[Structure], expected: bool) -> None:
+    logged = noisy(0.5)
+    turns = np.linspace(0.0, 6.0, len(logged))
+    swept, even = (replace(logged, voltage=6.0 * np.sin(2.0 * np.pi * phase)) for phase in (turns**2, turns))
+    held = replace(stub_held(5.0), recordings=(swept,))
+    assert goes_with_sweep(left, held) is expected
+    for others in ((swept, even), (even,), ()):
+        assert not goes_with_sweep(left, replace(held, recordings=others))
 
 
 @pytest.mark.slow

@@ -255,6 +255,25 @@ def test_what_the_gap_shows_is_needed_though_its_errors_are_wide(
     assert not is_needed(found_step(without, at_sea, effect, rivals), at_sea, without)  # as anything is there
 
 
+@pytest.mark.parametrize(
+    ("unknown", "limits", "needed"),
+    [
+        (("resistance_rise", "warm_up_time"), ("resistance_rise",), False),
+        (("resistance_rise", "warm_up_time"), ("warm_up_time",), True),
+        (("warm_up_time",), ("resistance_rise",), True),
+        (("resistance_rise", "warm_up_time"), (), True),  # their product shows
+    ],
+)
+def test_a_size_at_a_limit_is_not_needed_where_nothing_of_it_is_known(
+    monkeypatch: pytest.MonkeyPatch, unknown: tuple[str, ...], limits: tuple[str, ...], needed: bool
+) -> None:
+    """A warming-up by the most that is searched, at no known rate, was named in 3.8 s of a toy robot."""
+    monkeypatch.setattr(determination, "find_limits_hit", lambda model: limits)
+    without = stub_model(2.002 * thresholds.WORSE_GAP, 0.0)
+    model = replace(stub_model(2.0, 0.0), not_identifiable=unknown)
+    assert is_needed(found_step(without, model, "warm_up"), model, without) is needed
+
+
 @pytest.mark.parametrize("no_ripple", [True, False])
 def test_what_bends_the_motion_over_the_place_is_no_ripple_however_much_goes_with_it(
     monkeypatch: pytest.MonkeyPatch, no_ripple: bool
