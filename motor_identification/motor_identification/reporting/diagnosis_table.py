@@ -11,7 +11,7 @@ from motor_model.text_table import align_columns
 RISES = 1.01  # times the gap of the row before: more is no matter of how far a fit had converged
 ROWS = "A row's gap is that of the search as it got there, and need not fall: {}. Compare the first with the last."
 BESIDE_TORQUE = "from {} on it went on beside a random torque, where the model before left {:.3g} rad/s"
-GIVEN_UP = "{} was found beside {}, which was given up later"
+GIVEN_UP = "{} was found beside {}, which the model has no more"
 LIKELIER = "what is likelier on unseen motion may leave more"
 
 
@@ -34,7 +34,9 @@ def describe_rises(diagnosis: Diagnosis) -> str:
     if not any(after > RISES * before for before, after in pairwise(gaps)):
         return ""
     beside = [BESIDE_TORQUE.format(effect_name(one.effect), one.gap_before) for one in found if one.beside_torque][:1]
-    without = [GIVEN_UP.format(effect_name(one.effect), join_effects(one.given_up)) for one in found if one.given_up]
+    without = [
+        GIVEN_UP.format(effect_name(one.effect), join_effects(one.given_up, "and")) for one in found if one.given_up
+    ]
     return ROWS.format("; ".join((*beside, *without)) or LIKELIER)
 
 

@@ -26,10 +26,12 @@ def test_a_row_above_the_one_before_is_explained(found: Diagnosis) -> None:
     assert "from coast drive on it went on beside a random torque, where the model before left 49 rad/s." in said
     assert "Compare the first with the last." in said and format_diagnosis(chain).splitlines()[-1] == said
     # 0.390, 0.326 and 0.385, where the first finding was beside an eccentric disc of which nothing was certain.
-    other = replace(coast, gap_before=0.329, gap_after=0.326, beside_torque=False, given_up=("encoder_eccentricity",))
+    other = replace(
+        coast, gap_before=0.329, gap_after=0.326, beside_torque=False, given_up=("encoder_eccentricity", "backlash")
+    )
     rows = (other, replace(ks, gap_before=0.326, gap_after=0.385))
     said = describe_rises(replace(found, gap_before=0.39, findings=rows))
-    assert "coast drive was found beside encoder eccentricity, which was given up later." in said
+    assert "coast drive was found beside encoder eccentricity and backlash, which the model has no more." in said
     rows = tuple(replace(one, given_up=()) for one in rows)
     assert "what is likelier on unseen motion may leave more." in describe_rises(replace(found, findings=rows))
     for last, told in ((30.1, False), (30.5, True)):
