@@ -32,7 +32,7 @@ from motor_identification.logs.rows.parts import (
 from motor_identification.logs.rows.row_lengths import divide_by_regular_rows
 from motor_identification.logs.rows.stamps import drop_stray_stamps, separate_stamps, unwrap_clock
 from motor_identification.logs.run import Run
-from motor_identification.logs.signals import Floats, Integers, Signals, read_signals
+from motor_identification.logs.signals import LARGEST_VOLTAGE, Floats, Integers, Signals, read_signals
 from motor_identification.logs.steady import read_steady
 from motor_identification.logs.still_runs import leave_out_still_runs
 from motor_identification.logs.voltage_timing import acts_before
@@ -231,12 +231,20 @@ def _steady_log(form: CsvForm, info: Info, signals: Signals) -> Log:
 
 
 def _max_voltage(form: CsvForm, signals: Signals) -> float:
-    largest = form.max_voltage or float(np.max(np.abs(signals.voltage)))
+    """[V] at full duty: what was said, or the supply column's median, where no row got more; else the most of a row."""
+    largest = form.max_voltage or max(float(np.max(np.abs(signals.voltage))), _usual_supply(form, signals))
     if largest == 0.0:
         raise RecordingError(
             f"{signals.path}: {form.voltage} is 0 in every row: check --voltage, or give --max-voltage."
         )
     return largest
+
+
+def _usual_supply(form: CsvForm, signals: Signals) -> float:
+    """[V] the median of the supply that the drive is a share of; 0 without one, or of a motor that nothing drives."""
+    if form.supply is None or not np.any(signals.voltage):
+        return 0.0
+    return min(float(np.median(signals.supply)), LARGEST_VOLTAGE)
 
 
 def _about_time(signals: Signals) -> str:

@@ -37,6 +37,10 @@ SUPPLY = (
     "A supply of {:.4g} V is assumed, the most that was applied unless the import said more: of another one "
     "(import_log --max-voltage) kv and what its bridge does come out otherwise."
 )
+LOGGED_SUPPLY = (
+    "A supply of {:.4g} V is taken, the supply column's median unless the import said another or a row got more: of "
+    "another one (import_log --max-voltage) kv and what its bridge does come out otherwise."
+)
 GAINS = (
     "From run to run the speed at the same voltage differed by {:.2g} % (RMS), as it does where the supply differs; if "
     "that is a battery, log its voltage."
@@ -76,10 +80,12 @@ def _share_voltages(runs: Sequence[Floats]) -> bool:
 def describe_supply(diagnosis: Diagnosis) -> str:
     """Say which supply a bridge was taken to be on, where a log does not tell and it matters; else empty."""
     names = {name for one in diagnosis.findings for name in (one.effect, *one.ambiguous_with)}
-    imported = [one.info for one in diagnosis.after.recordings if one.info.source == "import"]
+    imported = [one for one in diagnosis.after.recordings if one.info.source == "import"]
     if not any(EFFECT_BY_NAME[name].of_supply for name in names) or not imported:
         return ""
-    return SUPPLY.format(max(info.full_voltage for info in imported))
+    most = max(imported, key=lambda one: one.info.full_voltage)
+    words = LOGGED_SUPPLY if np.any(np.isfinite(most.supply_voltage)) else SUPPLY
+    return words.format(most.info.full_voltage)
 
 
 def describe_likes(diagnosis: Diagnosis) -> str:

@@ -155,6 +155,27 @@ def test_scaled_voltage(read: Read) -> None:
     assert log.info.max_voltage == pytest.approx(7.4)
 
 
+DUTY = replace(SPEED, voltage="d", supply="b")
+
+
+@pytest.mark.parametrize(
+    ("form", "battery", "most"),
+    [
+        (DUTY, (12, 11.9, 12.1), 12.0),  # its largest duty is 0.82, of 11.9 V: 9.76 V
+        (replace(DUTY, max_voltage=9.0), (12, 11.9, 12.1), 9.0),
+        (replace(DUTY, voltage_scale=1 / 0.8), (12, 11.9, 12.1), 0.82 / 0.8 * 11.9),  # more than all of the median
+        (replace(DUTY, supply_scale=1e-3), (7400, 7400, 7400), 7.4),
+        (replace(DUTY, supply=None), (12, 11.9, 12.1), 0.82),
+    ],
+)
+def test_a_duty_whose_supply_is_logged_is_a_share_of_its_median(
+    read: Read, form: CsvForm, battery: tuple[float, ...], most: float
+) -> None:
+    """Of a motor on 12 V whose duty stayed below 0.82 the full voltage was 9.8 V, and what its bridge did was wrong."""
+    rows = [(0.02 * i, duty, 90 * i, b) for i, (duty, b) in enumerate(zip((0.3, -0.82, 0.5), battery, strict=True))]
+    assert read(table(*rows, header="t,d,y,b"), form).info.max_voltage == pytest.approx(most)
+
+
 def test_split_makes_a_run_of_every_change_and_lets_time_start_again(read: Read) -> None:
     rows = [("a b", 0), ("a b", 1), ("7.5", 0), ("7.5", 2), ("7.5", 3), ("a b", 1), ("a b", 2)]
     log = read(table(*((time, 1, 5, value) for value, time in rows), header="t,u,y,s"), replace(SPEED, split="s"))

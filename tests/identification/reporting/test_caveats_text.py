@@ -151,6 +151,24 @@ def test_the_supply_that_a_log_does_not_tell_is_said_where_it_matters(
     assert ("magnets saturate weakens with the current" in said) is (effect == "supply_sag")
 
 
+@pytest.mark.parametrize("logged", [True, False])
+def test_a_supply_of_a_column_is_said_to_be_its_median(variants: dict[Verdict, Diagnosis], logged: bool) -> None:
+    """Of a duty beside a battery of 12 V, "A supply of 9.798 V is assumed", the most that the duty had come to."""
+    one = variants[Verdict.EXPLAINED]
+    told = [
+        replace(
+            r,
+            info=replace(r.info, source="import", max_voltage=12.0),
+            supply_voltage=np.full(len(r), 12.0 if logged else np.nan),
+        )
+        for r in one.after.recordings
+    ]
+    after = replace(one.after, recordings=tuple(told))
+    said = summarize_diagnosis(replace(one, findings=(replace(one.findings[0], effect="coast_drive"),), after=after))
+    assert ("A supply of 12 V is taken, the supply column's median unless" in said) is logged
+    assert ("A supply of 12 V is assumed, the most that was applied" in said) is not logged
+
+
 @pytest.mark.parametrize(
     ("levels", "shared"),
     [

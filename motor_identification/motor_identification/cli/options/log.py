@@ -104,7 +104,12 @@ def _add_meaning(parser: argparse.ArgumentParser) -> None:
     add("--full-duty", type=positive, metavar="D", help="the voltage column holds duties: this one is full duty")
     add("--supply-voltage", type=positive, metavar="V", help="voltage at full duty")
     _add_row_timing(add)
-    add("--max-voltage", type=positive, metavar="V", help="voltage at full duty (default: the largest in the log)")
+    add(
+        "--max-voltage",
+        type=positive,
+        metavar="V",
+        help="voltage at full duty (default: the largest in the log, or the supply column's median if that is more)",
+    )
     _add_counts(add)
     _add_speed_timing(add)
 
