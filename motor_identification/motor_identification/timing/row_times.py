@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from motor_identification.recording import Floats, Recording
-from motor_identification.sensor.row_clock import RUN_AWAY, lay_clocks
+from motor_identification.sensor.row_clock import RUN_AWAY, lay_clocks, measure_period
 
 LEAST_ROWS = 50
 IRREGULAR = 0.01  # of a row: standard deviation of the rows' lengths that matters
@@ -40,7 +40,7 @@ class RowTimes:
             recording = _lay_clock(recording, self.run_away)
         if self.nominal:
             lengths = _measure_lengths(recording)
-            recording = replace(recording, speed=recording.speed * (float(np.median(lengths)) / lengths))
+            recording = replace(recording, speed=recording.speed * (measure_period(lengths) / lengths))
         return recording
 
     def describe(self, recording: Recording, timed: Recording) -> list[str]:

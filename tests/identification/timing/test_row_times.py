@@ -12,6 +12,7 @@ from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.request import SearchConfig
 from motor_identification.estimation.search.global_search import search_globally
 from motor_identification.recording import Floats, Recording, check
+from motor_identification.sensor.row_clock import measure_period
 from motor_identification.timing import speed_timing
 from motor_identification.timing.row_times import AS_STAMPED, LONGEST, RowTimes, list_row_times
 from motor_identification.timing.speed_filter import MEMORY, SpeedFilter
@@ -89,7 +90,7 @@ def test_smoothed_counts_of_uneven_rows_are_divided_by_their_lengths() -> None:
     assert found == replace(ASSUMED, filter=SpeedFilter(MEMORY, 0.5), rows=RowTimes(None, True))
     timed = read_again(recording, found)
     right = logged(UNEVEN, ON_TIME, edges=480)
-    share = float(np.median(np.diff(recording.time))) / PERIOD  # what a program meant by a row is not known
+    share = measure_period(np.diff(recording.time)) / PERIOD  # what a program meant by a row is not known
     assert timed.speed[1:] == pytest.approx(share * right.speed[1:], abs=1e-3)
     assert any(note.startswith("The speeds were computed as if every row took") for note in timed.notes)
 

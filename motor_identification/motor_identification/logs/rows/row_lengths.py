@@ -11,7 +11,7 @@ import numpy as np
 
 from motor_identification.logs.signals import Floats, Signals
 from motor_identification.sensor.parabola_scatter import WINDOW, measure_scatter
-from motor_identification.sensor.row_clock import LONGEST
+from motor_identification.sensor.row_clock import LONGEST, measure_period
 from motor_identification.sensor.value_lattice import find_lattice
 
 LEAST_ROWS = 50
@@ -30,7 +30,7 @@ def divide_by_own_rows(signals: Signals, wanted: bool | None = None) -> tuple[Si
     steps = signals.steps() * 1e-9
     if wanted is False or len(steps) < LEAST_ROWS or not np.std(steps[steps > 0.0]) > IRREGULAR * np.median(steps):
         return signals, []
-    period, motion, told = float(np.median(steps)), np.array(signals.motion, np.float64), []
+    period, motion, told = measure_period(steps), np.array(signals.motion, np.float64), []
     for run in signals.runs.values():
         rows = np.diff(signals.time[run]) * 1e-9
         lengths = np.append(period, np.where((rows > 0.0) & (rows < LONGEST * period), rows, period))
