@@ -27,7 +27,7 @@ def divide_by_own_rows(signals: Signals, wanted: bool | None = None) -> tuple[Si
 
     wanted: as somebody said; None as the motion shows.
     """
-    steps = signals.steps() * 1e-9
+    steps = np.asarray(signals.steps() * 1e-9, np.float64)
     if wanted is False or len(steps) < LEAST_ROWS or not np.std(steps[steps > 0.0]) > IRREGULAR * np.median(steps):
         return signals, []
     period, motion, told = measure_period(steps), np.array(signals.motion, np.float64), []
