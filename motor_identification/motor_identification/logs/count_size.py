@@ -7,7 +7,7 @@ counts a turn are 102, and a gear of 256/255.
 
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from math import ceil, log10, pi
+from math import ceil, floor, log10, pi
 
 import numpy as np
 
@@ -33,6 +33,11 @@ OFF_STEP = 0.25  # by so much of the step at least
 ENOUGH_FINER = 16  # positions there that are on it are none by chance
 SURE = 3.0  # standard errors within which a step is taken for a simple share of so many turns at most:
 MOST_TURNS = 16
+# Counts of a turn, and of so many a share, by which a number of counts is off a whole one: two decimals of a speed of
+# 432 counts leave 0.01, and a period that rows did not have makes it anything.
+OFF_WHOLE, OFF_SHARE = 0.02, 2e-5
+MEANT, AS_IT_WAS = 0.12, 1e-3  # of a row, by which it is longer than the one that was meant: at most, at least
+LAST_DIGIT = 1e-6  # of the last decimal, within which a step is it
 
 
 @dataclass(frozen=True)
@@ -186,3 +191,33 @@ def agree_on_edges(form: CsvForm, exact: float, tolerance: float) -> int:
             "check --count-quantum, --edges-per-revolution and --unit."
         )
     return edges
+
+
+def doubt_counts(counts: float, period: float, step: float, digit: float) -> str:
+    """Say what else makes a step of speeds, where the counts of a turn by it are no whole ones; empty where they are.
+
+    Args:
+        counts: of a turn, by the step within the period.
+        period: [s] that a speed is taken for the mean over.
+        step: of the speeds, in the unit of the log.
+        digit: the place of their last decimal; 0 where they have more than can be told.
+    """
+    if abs(counts - round(counts)) <= OFF_WHOLE + OFF_SHARE * counts:
+        return ""
+    if digit > 0.0 and abs(step / digit - 1.0) < LAST_DIGIT:
+        return (
+            f" That is no whole number, and {step:g} the last decimal: more likely the speeds were rounded to it "
+            "(log more decimals, or counts)."
+        )
+    place = 10.0 ** floor(log10(period))
+    meant = place * round(period / place)
+    longer = period / meant - 1.0
+    such = f", such as {1e3 * meant:.4g} ms (of {counts * period / meant:.5g} counts then, and" if meant else ""
+    if not AS_IT_WAS < abs(longer) < MEANT:
+        such = ""
+    share = f" speeds {100.0 * abs(longer):.2g} % too {'large' if longer > 0.0 else 'small'})" if such else ""
+    return (
+        f" That is no whole number: the speeds may have been computed with a period that the rows did not have{such}"
+        f"{share}, were rounded, or are those of a gear's output (--gear-ratio). Log the counts, or say how long a "
+        "speed was counted (--speed-window)."
+    )

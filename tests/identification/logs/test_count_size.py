@@ -7,7 +7,7 @@ from math import radians
 import numpy as np
 import pytest
 
-from motor_identification.logs.count_size import FEWEST_COUNTS, FINE, count_size
+from motor_identification.logs.count_size import FEWEST_COUNTS, FINE, count_size, doubt_counts
 from motor_identification.logs.form import CsvForm, Kind
 from motor_model.errors import RecordingError
 from motor_model.gearing.gear import edge_angle, exact_gear
@@ -121,3 +121,25 @@ def test_counts_of_a_power_of_two_a_turn_are_an_encoders_however_far_it_turned(
     form = CsvForm("t", "u", "y", Kind.POSITION, unit)
     count = count_size(form, counted * (2.0 * np.pi if unit == "rad" else 1.0), np.zeros(6000))
     assert count.edges == 2**bits and not count.stands_for
+
+
+@pytest.mark.parametrize(
+    ("counts", "period", "step", "digit", "said"),
+    [
+        (3813.9, 2.148e-3, 0.767, 0.0, "such as 2 ms (of 4096 counts then, and speeds 7.4 % too large)"),
+        (3272.73, 0.011, 1.667, 1e-3, "such as 10 ms (of 3600 counts then, and speeds 10 % too large)"),
+        (517.24, 4.8e-3, 2.53, 0.0, "such as 5 ms (of 496.55 counts then, and speeds 4 % too small)"),
+        (102.4, 0.01, 6.1359, 1e-4, "with a period that the rows did not have, were rounded, or are those of a gear's"),
+        (8376.7, 0.01, 0.01, 0.01, "and 0.01 the last decimal: more likely the speeds were rounded to it"),
+    ],
+)
+def test_counts_that_are_no_whole_ones_are_doubted(
+    counts: float, period: float, step: float, digit: float, said: str
+) -> None:
+    """A motor's four encoders of 4,096 counts had 3813.9 in rows of 2.15 ms, and 0.01 m/s was one of 8376.7."""
+    assert said in doubt_counts(counts, period, step, digit)
+
+
+@pytest.mark.parametrize(("counts", "doubted"), [(432.02, False), (432.04, True), (3813.9, True), (3813.93, False)])
+def test_counts_within_what_decimals_leave_are_not(counts: float, doubted: bool) -> None:
+    assert bool(doubt_counts(counts, 0.01, 0.7272, 1e-4)) is doubted
