@@ -126,7 +126,7 @@ def test_counts_of_a_power_of_two_a_turn_are_an_encoders_however_far_it_turned(
 @pytest.mark.parametrize(
     ("counts", "period", "step", "digit", "said"),
     [
-        (3813.9, 2.148e-3, 0.767, 0.0, "such as 2 ms (of 4096 counts then, and speeds 7.4 % too large)"),
+        (3813.9, 2.14793e-3, 0.767, 0.0, "such as 2 ms (of 4096 counts then, and speeds 7.4 % too large)"),
         (3272.73, 0.011, 1.667, 1e-3, "such as 10 ms (of 3600 counts then, and speeds 10 % too large)"),
         (517.24, 4.8e-3, 2.53, 0.0, "such as 5 ms (of 496.55 counts then, and speeds 4 % too small)"),
         (102.4, 0.01, 6.1359, 1e-4, "with a period that the rows did not have, were rounded, or are those of a gear's"),
