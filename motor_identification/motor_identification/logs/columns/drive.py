@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_identification.logs.columns.heading import Heading
-from motor_identification.logs.columns.names.quantity import is_pulse_of_esc
+from motor_identification.logs.columns.names.quantity import is_pulse
 from motor_identification.logs.columns.vocabulary import SHARES, UNITS, VOLTAGE_WORDS, Quantity, words_of
 from motor_identification.logs.csv.table import Table
 
@@ -33,6 +33,7 @@ _PULSES = (1_000.0, 2_500.0)  # [µs] the longest of a log, of which none is a s
 _SUPPLIES = (15.0, 18.0, 24.0, 36.0, 48.0)  # [V] where commands are cut off
 _MOST_VOLTS = 12.0  # of a command that never is larger: a duty of so few per cent, or of 255, moves no motor
 _CUT_OFF = 3  # rows at the largest command
+_BITS_8 = 255.0  # a duty of so many at most is called a voltage by some
 _STEADY_SUPPLY = 0.5  # of its largest value: a supply stays above, a motor's voltage passes 0
 MILLIVOLTS_FROM = 100.0  # such a supply is given in mV
 _EFFORT = "effort"  # of joint states
@@ -62,6 +63,8 @@ def voltage_drive(heading: Heading, values: Floats) -> Drive:
     if largest > (LARGEST_VOLTS if heading.quantity else _LARGEST_UNNAMED) and not np.any(values % 1.0):
         if FEWEST_MILLIVOLTS <= largest <= 1e3 * LARGEST_VOLTS and set(heading.words) & VOLTAGE_WORDS:
             return Drive(1e-3, "in mV (assumed; otherwise: --full-duty, --voltage-scale)")
+        if set(heading.words) & VOLTAGE_WORDS and _is_mains(values, largest):
+            return Drive(None, f"stays near {largest:.4g} V, more than a small motor gets", sure=False)
         return duty_drive(heading, values)
     if largest > MOST_VOLTS and heading.quantity is not None:
         if set(heading.words) & VOLTAGE_WORDS:
@@ -81,8 +84,9 @@ def duty_drive(heading: Heading, values: Floats, full: float | None = None) -> D
     if full:
         return Drive(None, f"as a duty of ±{full:g}", full)
     largest = float(np.max(np.abs(values), initial=0.0))
-    if is_pulse_of_esc(heading.words) and _PULSES[0] <= largest <= _PULSES[1]:
-        return Drive(None, "is an ESC's pulse in µs and no duty, as it is 1000 or 1500 at 0 V", sure=False)
+    if is_pulse(heading.words, heading.unit) and _PULSES[0] <= largest <= _PULSES[1]:
+        whose = "a servo's" if "servo" in heading.words else "an ESC's"
+        return Drive(None, f"is {whose} pulse in µs and no duty, as it is 1000 or 1500 at 0 V", sure=False)
     if heading.unit == "%" and (largest > 1.0 or not np.any(values % 1.0)):
         return Drive(None, "as a duty in %", 100.0)
     if heading.unit == "%":  # which would be a motor that never gets 1 % of its supply
@@ -119,6 +123,11 @@ def _why_in_volts(heading: Heading, values: Floats, largest: float) -> str:
 def _is_cut_off(values: Floats) -> bool:
     """Whether commands, shape (K,), come to their largest again and again."""
     return np.count_nonzero(np.abs(values) == np.max(np.abs(values), initial=0.0)) >= _CUT_OFF
+
+
+def _is_mains(values: Floats, largest: float) -> bool:
+    """Whether what is called a voltage, shape (K,), is one of a large machine: beyond 8 bits, and it never swings."""
+    return largest > _BITS_8 and largest not in FULL_DUTIES and bool(np.all(values >= _STEADY_SUPPLY * largest))
 
 
 def _is_odd_timer(largest: float) -> bool:

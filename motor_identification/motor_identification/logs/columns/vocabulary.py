@@ -62,6 +62,7 @@ WORDS: dict[Quantity, frozenset[str]] = {
         "error err erro fehler erreur errore galat kp ki kd integral gyro temp temperature accel acceleration "
         "temperatur temperatura température temperatuur teplota suhu sıcaklık 温度 estado état zustand stato "
         "acc derivative id index loop state mode enabled fault limited saturated lead integrator wcs acs shunt torque "
+        "cell cells loadcell loadcells strain "  # a test stand's: a strain gauge's millivolts drive nothing
         "gain gains couple drehmoment moment coppia torsione kraft force écart ecart écarts ecarts uchyb odchylka "
         "regelabweichung "
         "heading dir direction drehrichtung richtung yaw pitch roll rate "

@@ -161,6 +161,30 @@ def test_an_esc_gets_pulses_and_no_duty(largest: float, pulse: bool) -> None:
     assert duty_drive(read_heading("pwm"), np.array([0.0, largest])).sure
 
 
+@pytest.mark.parametrize(("largest", "pulse"), [(1994.0, True), (999.0, False), (2501.0, False)])
+def test_a_servo_gets_pulses_and_no_duty_of_twelve_bits(largest: float, pulse: bool) -> None:
+    drive = duty_drive(read_heading("Servo 3 (µs)"), np.array([900.0, largest]))
+    assert ("is a servo's pulse in µs and no duty" in drive.why) == pulse == (not drive.sure)
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "mains"),
+    [
+        ("voltage", (450.0, 450.0), True),
+        ("voltage", (300.0, 450.0), True),
+        ("voltage", (200.0, 450.0), False),  # it swings: a duty
+        ("voltage", (-450.0, 450.0), False),
+        ("voltage", (255.0, 255.0), False),
+        ("voltage", (1000.0, 1000.0), False),
+        ("u", (450.0, 450.0), False),
+    ],
+)
+def test_a_voltage_of_a_large_machine_is_no_duty(name: str, values: tuple[float, ...], mains: bool) -> None:
+    """A data sheet's curve at 450 V was "a duty of ±1000"."""
+    drive = voltage_drive(read_heading(name), np.array(values))
+    assert ("V, more than a small motor gets" in drive.why) == mains == (drive.full is None)
+
+
 @pytest.mark.parametrize(("largest", "full"), [(2046.0, 4095.0), (2047.0, 2047.0), (2048.0, 4095.0)])
 def test_a_timer_of_eleven_bits_is_known_where_it_is_full(largest: float, full: float) -> None:
     assert duty_drive(read_heading("PWM"), np.array([0.0, 100.0, largest])).full == full

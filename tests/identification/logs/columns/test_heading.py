@@ -139,6 +139,8 @@ V1                | voltage        |       |
 ESC signal        | duty           |       |
 ESC signal (µs)   | duty           | us    |
 ESC 1 signal      | duty           |       |
+Servo 3 (µs)      | duty           | us    |
+Left Load Cell (mV) | other        | mV    | left
 ESC speed         | speed          |       |
 ESC voltage (V)   | voltage        | V     |
 ESC temperature   | other          |       |

@@ -18,7 +18,7 @@ from motor_identification.logs.columns.vocabulary import (
 _ANY_DRIVE = INPUTS | words_of("u applied sine sinewave chirp ramp stair stairs staircase prbs aprbs sweep excitation")
 _DUTIES = SHARES - words_of("power effort esforço esforco esfuerzo")
 _ORDERS = frozenset(["command", "cmd", "commanded"])  # of a speed or a position: what it should be
-_PULSES = frozenset(["esc", "signal", "pwm", "throttle", "pulse", "width", "command", "cmd", "output"])
+_PULSES = frozenset(["esc", "servo", "signal", "pwm", "throttle", "pulse", "width", "command", "cmd", "output"])
 _TESTS = frozenset(["test", "trial"])  # whose numbers are no times, however evenly they go on
 _NUMBERS = frozenset(["no", "nr", "num", "number"])
 _ROWS = frozenset(["sample", "samples", "row", "rows"])
@@ -99,18 +99,22 @@ def _quantity_of_an_output(words: tuple[str, ...], told: list[Quantity]) -> Quan
 def _is_duty_whatever_its_unit(words: tuple[str, ...], unit: str, told: list[Quantity]) -> bool:
     """Whether a name is one of a duty: `pwm_rev`, that of the other way; `PWM [ticks]`, `Commande [pt]`, of a timer.
 
-    So is `ESC signal (µs)`, of a test stand.
+    So are `ESC signal (µs)` and `Servo 3 (µs)`, of a test stand.
     """
-    if is_pulse_of_esc(words):
+    if is_pulse(words, unit):
         return True
     if unit == "rev":
         return Quantity.DUTY in told
     return unit == "count" and told == [Quantity.DUTY] and not (_ORDERS | OUTPUTS) & set(words)
 
 
-def is_pulse_of_esc(words: tuple[str, ...]) -> bool:
-    """Whether a name is that of the pulses which a brushless motor's controller gets, not of what that measures."""
-    return "esc" in words and all(word in _PULSES or word.isdigit() for word in words)
+def is_pulse(words: tuple[str, ...], unit: str) -> bool:
+    """Whether a name is that of the pulses which a controller of a model's motor or a servo gets, not of a measurement.
+
+    What a servo gets is told by its unit: `servo` alone may be its angle.
+    """
+    named = "esc" in words or ("servo" in words and unit == "us")
+    return named and all(word in _PULSES or word.isdigit() for word in words)
 
 
 def _is_joint(words: tuple[str, ...]) -> bool:

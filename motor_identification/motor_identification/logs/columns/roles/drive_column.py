@@ -34,10 +34,8 @@ def find_drive_column(table: Table, headings: Sequence[Heading], side: str, othe
         found = [one.name for one in headings if one.quantity is quantity]
         own = [one.name for one in headings if one.quantity is quantity and one.side == side and side]
         found = own or found
-        if quantity is Quantity.VOLTAGE and duties:
-            found = [name for name in found if not is_supply(table.numbers(name), table.numbers(duties[0]))]
-        if quantity is Quantity.VOLTAGE and not duties:
-            found = [name for name in found if not _is_battery(table, name)]
+        if quantity is Quantity.VOLTAGE:
+            found = [name for name in found if _may_drive(table, name, duties)]
         if len(found) > 1:  # what is 0 all the time drives nothing beside another
             found = [name for name in found if np.any(table.numbers(name))] or found
         if len(found) > 1:
@@ -54,6 +52,15 @@ def find_drive_column(table: Table, headings: Sequence[Heading], side: str, othe
     if not candidates:
         raise miss_drive(table)
     raise ask_drive(table, candidates)
+
+
+def _may_drive(table: Table, name: str, duties: Sequence[str]) -> bool:
+    """Whether a voltage may be the motor's, beside duties: no supply's, and of no meter that is not plugged in."""
+    if not duties:
+        return not _is_battery(table, name)
+    volts = table.numbers(name)
+    idle = not np.any(volts) and any(np.any(table.numbers(duty)) for duty in duties)
+    return not idle and not is_supply(volts, table.numbers(duties[0]))
 
 
 def _is_battery(table: Table, name: str) -> bool:

@@ -3,7 +3,7 @@
 import pytest
 
 from motor_identification.logs.columns.names.quantity import (
-    is_pulse_of_esc,
+    is_pulse,
     may_number_rows,
     tell_quantity,
 )
@@ -41,11 +41,21 @@ def test_words_and_unit_tell_a_quantity(words: str, unit: str, quantity: Quantit
 
 
 @pytest.mark.parametrize(
-    ("words", "pulse"),
-    [("esc signal", True), ("esc 1 pwm", True), ("esc current", False), ("pwm", False)],
+    ("words", "unit", "pulse"),
+    [
+        ("esc signal", "", True),
+        ("esc 1 pwm", "", True),
+        ("esc current", "", False),
+        ("pwm", "us", False),
+        ("servo 3", "us", True),
+        ("servo 3", "", False),
+        ("servo position", "us", False),
+    ],
 )
-def test_pulses_to_a_controller_of_brushless_motors_are_told_from_what_it_measures(words: str, pulse: bool) -> None:
-    assert is_pulse_of_esc(tuple(words.split())) is pulse
+def test_pulses_to_a_controller_of_brushless_motors_are_told_from_what_it_measures(
+    words: str, unit: str, pulse: bool
+) -> None:
+    assert is_pulse(tuple(words.split()), unit) is pulse
 
 
 @pytest.mark.parametrize(

@@ -18,6 +18,16 @@ def test_a_voltage_beside_a_duty_may_be_the_supply() -> None:
     assert (named.pairs[0].voltage, named.supply) == ("pwm", "battery")
 
 
+def test_a_voltage_of_zeros_drives_nothing_beside_a_duty() -> None:
+    """A test stand has a column for its meter, whether that is plugged in or not."""
+    beside = find_roles(columns(t=TIME, pwm=DRIVE, voltage=0.0 * DRIVE, speed=FOLLOWS), Said())
+    assert beside.pairs[0].voltage == "pwm"
+    neither = find_roles(columns(t=TIME, pwm=0.0 * DRIVE, voltage=0.0 * DRIVE, speed=FOLLOWS), Said())
+    assert neither.pairs[0].voltage == "voltage"
+    strained = columns(t=TIME, pwm=DRIVE, **{"Left Load Cell (mV)": FOLLOWS, "speed": FOLLOWS})
+    assert find_roles(strained, Said()).pairs[0].voltage == "pwm"
+
+
 def test_what_is_called_a_supply_and_swings_drives() -> None:
     assert find_roles(table(t="t", Vin="u", speed="y"), Said()).pairs == (Pair("", "Vin", "speed"),)
     with pytest.raises(RecordingError, match="no column is the voltage or duty"):
