@@ -82,6 +82,9 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
     beside_it = f", of which {counted.speed} is the speed (otherwise: --speed {counted.speed})" if counted else ""
     pair = replace(pair, motion=counted.column) if counted else pair
     said = say_turn_counts(table, pair, stamps, said, notes)
+    if not counted and (speed := _find_speed_with_unit(table, pair, said, rows.period if rows.time else 0.0, stamps)):
+        beside_it = f", as nothing tells the unit of {pair.motion} (otherwise: --position {pair.motion} --unit U)"
+        pair = replace(pair, motion=speed)
     drive, scale, supply = read_drive(table, pair, roles, said, notes)
     driven = bool(pair.label or np.any(table.numbers(pair.voltage)))  # of several motors, one may not be
     codes = () if said.full_duty or not drive.full else find_codes(table.numbers(pair.voltage))
@@ -152,6 +155,21 @@ def _find_counted(table: Table, pair: Pair, taken: frozenset[str], said: Said, s
         return None
     summed = find_summed_counts(table, pair, taken)
     return summed or (None if stamps is None else find_counted_position(table, pair, taken, stamps))
+
+
+def _find_speed_with_unit(table: Table, pair: Pair, said: Said, period: float, stamps: Floats | None) -> str:
+    """Name the one speed of a known unit beside a position whose unit nothing tells; else empty.
+
+    Of whole numbers, which may be counts, the unit is worth a question.
+    """
+    heading = read_heading(pair.motion)
+    if heading.quantity is not Quantity.POSITION or said.kind or said.unit:
+        return ""
+    if not np.any(table.numbers(pair.motion) % 1.0):
+        return ""
+    speed = _find_speed_beside(table, pair, Kind.POSITION, said)
+    known = bool(speed) and UNITS[Kind.SPEED].get(read_heading(speed).unit) is not None
+    return speed if known and not _unit(table, heading, Kind.POSITION, said, period, stamps).name else ""
 
 
 def _motion(

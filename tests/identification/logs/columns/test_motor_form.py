@@ -202,6 +202,38 @@ def test_a_unit_of_a_speed_beside_a_position_is_an_answer_too(beside: tuple[str,
         assert (made.motion, made.kind, made.unit) == (offered, Kind.SPEED, "rpm")
 
 
+@pytest.mark.parametrize(
+    ("name", "of_position", "whole", "read"),
+    [
+        ("speed [rpm]", "position", False, "speed [rpm]"),
+        ("speed [rpm]", "position", True, ""),
+        ("speed", "position", False, ""),
+        ("speed [count/s]", "position", False, ""),
+        ("speed [rpm]", "position [deg]", False, "position [deg]"),
+    ],
+)
+def test_a_speed_with_a_unit_is_read_where_nothing_tells_that_of_the_position(
+    name: str, of_position: str, whole: bool, read: str
+) -> None:
+    """A motor of 3,500 rpm turned by more than half a turn from row to row, and its position wrapped at 230."""
+    speed = 3500.0 * np.arctan(np.arange(200) / 31.0)
+    position = np.mod(np.cumsum(speed) * 0.06, 230.4) + np.linspace(0.0, 0.0137, 200)
+    position = np.rint(position) if whole else position
+    volts = np.repeat([5.0, 15.0], 100)
+    columns = {"time [s]": 0.01 * np.arange(200), "voltage [V]": volts, of_position: position, name: speed}
+    log = Table(Path("log.csv"), np.arange(200), columns)
+    if not read:
+        with pytest.raises(RecordingError, match="position in .*: say --unit"):
+            guess_forms(log, Said())
+        return
+    guessed = guess_forms(log, Said())
+    assert guessed.forms[0].motion == read
+    said = "as nothing tells the unit of position (otherwise: --position position --unit U)"
+    assert any(said in finding for finding in guessed.findings) is (read == name)
+    (asked,) = guess_forms(log, Said(motion=of_position, kind=Kind.POSITION, unit="deg")).forms
+    assert asked.motion == of_position
+
+
 def test_joint_states_are_in_radians() -> None:
     for motion, unit in (("/joint_states/arm/velocity", "rad/s"), ("/joint_states/arm/position", "rad")):
         notes = Notes([], [])
