@@ -11,6 +11,7 @@ from motor_control.controller.faults.stall import REPORTABLE
 from motor_control.controller.faults.unexpected_edges import FEW_SLOTS
 from motor_control.controller.reference import position_law
 from motor_control.controller.run import Config
+from motor_control.controller.timing.sample_rate import SLOWEST, are_few, lower_gains
 from motor_model.errors import MotorError
 from motor_model.model_file import load
 from motor_model.parameters import Parameters
@@ -26,10 +27,9 @@ NO_INFO = "The observer waits for motor/info to say what the encoder is like; th
 NO_EDGES = "The plant does not stamp its edges, which the observer needs: the speed is the measured one."
 NO_DIRECTION = "An angle cannot be approached: a single channel does not measure the direction; use two channels."
 NO_POSITION = "An angle cannot be approached without the observer: set model, and speed_source to observer."
-SLOWEST = 100.0  # samples a second: from there on faults are told as at 200, and the default gains hold a speed
 FEW_SAMPLES = (
-    "Only {:.3g} samples a second come: some faults of the encoder's line are not noticed below {:g}, and gains for a "
-    "quicker loop let the motor swing: raise the plant's sample_rate."
+    "Only {:.3g} samples a second come: some faults of the encoder's line are not noticed below {:g}: raise the "
+    "plant's sample_rate."
 )
 NOT_READY = "Observer and feed-forward are being prepared; the speed is the measured one until then."
 BAD_INFO = "motor/info says {} = {:g}, which cannot be: correct it in the plant. The motor gets 0 V until then."
@@ -141,7 +141,7 @@ def _lack(values: Mapping[str, Value], info: Info | None, motor: Parameters | No
 
 def _find_few_samples(info: Info | None) -> str:
     """Find that the plant samples too seldom for the checks for faults, as a sentence; "" if it does not."""
-    few = info is not None and info.sample_period * SLOWEST > 1.01  # a board rounds it
+    few = info is not None and are_few(info.sample_period)
     return FEW_SAMPLES.format(1.0 / info.sample_period, SLOWEST) if info is not None and few else ""
 
 
@@ -156,14 +156,21 @@ def _add_model(config: Config, values: Mapping[str, Value], info: Info | None, m
     if values["speed_source"] == OBSERVER and info is not None and info.measurement is Measurement.EDGES:
         watcher = Observer(motor, info, float(values["slot_irregularity"]))
     rate_limit, limit, gentle = config.reference_rate_limit, config.voltage_limit, 0.0
-    if float(values["reference_rate_limit"]) < 0.0:
-        rate_limit, gentle = 2.0 * limit / motor.value("ka"), 0.5 * motor.value("ka") / max(config.gains.kp, 1e-9)
-    friction = forward.breakaway
-    kv = max(limit - friction, 0.1 * limit) / max(forward.top_speed(limit), 1e-9)
-    if watcher is not None and not config.single_channel:
-        place = position_law.design(slot_of(info), config.gains.kp, motor.value("ka"), limit, forward.top_speed(limit))
-    shown = forward.fastest / config.faults.slot if config.faults.slot else inf
+    kv = max(limit - forward.breakaway, 0.1 * limit) / max(forward.top_speed(limit), 1e-9)
     lag = motor.value("delay") + motor.value("electrical_time_constant")
+    faults = replace(
+        config.faults,
+        fastest=forward.fastest,
+        kv=kv,
+        time_constant=motor.value("ka") / motor.value("kv") + lag,
+        friction=forward.breakaway,
+    )
+    kp = lower_gains(config.gains, faults, 0.0, limit, config.sample_period).kp
+    if float(values["reference_rate_limit"]) < 0.0:
+        rate_limit, gentle = 2.0 * limit / motor.value("ka"), 0.5 * motor.value("ka") / max(kp, 1e-9)
+    if watcher is not None and not config.single_channel:
+        place = position_law.design(slot_of(info), kp, motor.value("ka"), limit, forward.top_speed(limit))
+    shown = forward.fastest / config.faults.slot if config.faults.slot else inf
     return replace(
         config,
         reference_rate_limit=rate_limit,
@@ -172,11 +179,5 @@ def _add_model(config: Config, values: Mapping[str, Value], info: Info | None, m
         position=place,
         feedforward=forward if values["feedforward"] else None,
         unusable=config.unusable or (TOO_FEW_EDGES.format(shown, REPORTABLE) if shown < REPORTABLE else ""),
-        faults=replace(
-            config.faults,
-            fastest=forward.fastest,
-            kv=kv,
-            time_constant=motor.value("ka") / motor.value("kv") + lag,
-            friction=friction,
-        ),
+        faults=faults,
     )

@@ -22,6 +22,7 @@ from motor_control.controller.reference import position_law
 from motor_control.controller.reference.demand import Demand, Kind
 from motor_control.controller.reference.ramp import Target, approach, round_to_rest
 from motor_control.controller.run import Config, Run, begin
+from motor_control.controller.timing.sample_rate import explain_lowering, lower_gains
 from motor_control.controller.timing.timekeeping import MARGIN, limit_held
 from motor_model.frozen_record import replace
 from motor_model.sample import Sample
@@ -97,10 +98,12 @@ def _apply_law(config: Config, run: Run, sample: Sample, demand: Demand, hold: b
         allowed = span.limit_at_rest(allowed, 0.0 if config.single_channel else span.AT_REST * config.voltage_limit)
     run = reduce_creeping(run, sample, target.reference)
     step_time = 0.0 if hold or ignored > IGNORED_TIME else dt
+    gains = lower_gains(config.gains, config.faults, run.motion.most, config.voltage_limit, config.sample_period)
+    note = config.note if gains is config.gains else explain_lowering(gains, config.faults, config.sample_period)
     if demand.kind is Kind.VOLTAGE or aim.rests:
         terms, law = pi.apply_voltage(0.0 if aim.rests else demand.value, allowed.low, allowed.high), pi.State()
     else:
-        terms, law = _compute_terms(config, run, seen, target, speed, step_time, allowed)
+        terms, law = _compute_terms(config, gains, run, seen, target, speed, step_time, allowed)
     sigma, innovation = (nan, nan) if seen is None else (seen.sigma, seen.innovation)
     plugs = terms.saturated and terms.voltage * speed < 0.0 and abs(terms.voltage) < FULL * config.voltage_limit
     limit = config.voltage_limit
@@ -120,8 +123,8 @@ def _apply_law(config: Config, run: Run, sample: Sample, demand: Demand, hold: b
         place=place,
         rests=rests,
     )
-    reason = _explain(config, run, after, allowed, terms) or aim.note or config.note
-    warning = ignored > IGNORED_TIME or bool(config.note or aim.note)
+    reason = _explain(config, run, after, allowed, terms) or aim.note or note
+    warning = ignored > IGNORED_TIME or bool(note or aim.note)
     return Output(RUNNING, reason, target.reference, speed, terms, sigma, innovation, warning, fault), after
 
 
@@ -182,13 +185,20 @@ def _allow(config: Config, run: Run, wanted: float, target: Target, speed: float
 
 
 def _compute_terms(
-    config: Config, run: Run, seen: Estimate | None, target: Target, speed: float, dt: float, allowed: span.Span
+    config: Config,
+    gains: pi.Config,
+    run: Run,
+    seen: Estimate | None,
+    target: Target,
+    speed: float,
+    dt: float,
+    allowed: span.Span,
 ) -> tuple[pi.Terms, pi.State]:
-    """Compute the terms at a speed [rad/s], over a time step [s]."""
+    """Compute the terms at a speed [rad/s], over a time step [s], with gains that the sample period bears."""
     reference = target.reference
     if seen is not None and reference == 0.0 and speed == 0.0:  # it stands, and shall
         return pi.Terms(0.0, 0.0, 0.0, 0.0, 0.0, False), pi.State()
-    law, gains, forward = run.law, config.gains, 0.0
+    law, forward, leaks = run.law, 0.0, False
     if config.single_channel and seen is None and speed == 0.0:  # what held the other direction is of no use from here
         law = pi.State(min(max(law.integral, allowed.low), allowed.high))
     law = forget(gains, law, dt, runs_on(config, run.motion, law, reference, reference - speed))
@@ -196,7 +206,8 @@ def _compute_terms(
         forward = config.feedforward.voltage(reference, target.slope, 0.0 if seen is None else seen.load)
         if seen is not None and speed != 0.0:
             leak = gains.ki / gains.kp if gains.kp > 0.0 else gains.ki
-            law, gains = pi.State(law.integral * exp(-dt * min(leak, 1e6))), config.resting
-    if gains is config.gains:  # the others leak by themselves
+            law, leaks = pi.State(law.integral * exp(-dt * min(leak, 1e6))), True
+            gains = config.resting if gains is config.gains else pi.Config(gains.kp, 0.0, gains.limit)
+    if not leaks:  # else it takes back by itself
         gains = gains_to_rest(gains, law, reference, reference - speed)
     return pi.update(gains, law, reference - speed, forward, dt, allowed.low, allowed.high)

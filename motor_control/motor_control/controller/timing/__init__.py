@@ -2,4 +2,5 @@
 
 latency      the age of a sample, and whether the plant applies what was asked for long ago
 timekeeping  whether the loop keeps its time, and what it may ask for while it does not
+sample_rate  lower gains, where the plant's samples come too seldom for those that are set
 """
