@@ -136,6 +136,11 @@ def test_a_friction_that_is_a_hair_off_is_no_second_effect() -> None:
     assert found.model.parameters.value("ks") == pytest.approx(0.45, rel=1e-4)
 
 
+def test_seconds_in_which_no_winding_warms_up_are_enough_for_nothing_to_be_missing() -> None:
+    found = diagnose([made({}, profiles.random(12.0, 8.0, 7), 3)])
+    assert found.verdict is Verdict.NOTHING_MISSING and found.findings == () and "warm_up" in found.undetectable
+
+
 def test_nothing_hidden_nothing_named() -> None:
     found = diagnosed({})
     assert found.verdict is Verdict.NOTHING_MISSING and found.findings == ()

@@ -48,7 +48,10 @@ def conclude(
     gaps = _list_gaps(selection)
     findings, hidden = _list_findings(selection, model, gaps), find_undetectable(last)
     findings = doubt_lags(findings) if sensor_may_lag else findings
-    verdict, suggestion = decide(findings, selection, hidden, undetermined)
+    possible = tuple(
+        name for name in hidden if not is_over_too_soon(name, last.held)
+    )  # what cannot have come yet is none
+    verdict, suggestion = decide(findings, selection, possible, undetermined)
     found = Diagnosis(
         verdict=verdict,
         findings=findings,

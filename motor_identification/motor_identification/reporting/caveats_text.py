@@ -23,10 +23,10 @@ QUICK = (
     "stamps that are off by a part of a row."
 )
 LARGE = (
-    " That is {:.2g} % of the {:.3g} V that was applied at most{}: the voltage that was logged is probably not what "
+    " That is {:.0f} % of the {:.3g} V that was applied at most{}: the voltage that was logged is probably not what "
     "drove the motor."
 )
-STOOD = ", under half of which and more it stood for {:.2g} s after it had turned"
+STOOD = ", under half of which and more it stood for {:.3g} s after it had turned"
 LARGE_SHARE = 0.5  # of the largest voltage: a motor on which a random torque of more acts follows something else
 SLOW = 0.05  # of the largest speed: below it a motor has stopped
 STOOD_SHARE = 0.1  # of the time in which it was driven by a large voltage: less may be a start, or a turn

@@ -140,6 +140,16 @@ def test_counts_that_are_no_whole_ones_are_doubted(
     assert said in doubt_counts(counts, period, step, digit)
 
 
-@pytest.mark.parametrize(("counts", "doubted"), [(432.02, False), (432.04, True), (3813.9, True), (3813.93, False)])
-def test_counts_within_what_decimals_leave_are_not(counts: float, doubted: bool) -> None:
-    assert bool(doubt_counts(counts, 0.01, 0.7272, 1e-4)) is doubted
+@pytest.mark.parametrize(
+    ("counts", "period", "doubted"),
+    [
+        (432.02, 0.01, False),
+        (432.04, 0.01, False),
+        (432.05, 0.01, True),
+        (4095.8, 0.0020001, False),  # 50 ppm of a crystal
+        (3813.9, 0.0021476, True),
+        (3813.99, 0.0021476, False),
+    ],
+)
+def test_counts_within_what_decimals_and_clocks_leave_are_not(counts: float, period: float, doubted: bool) -> None:
+    assert bool(doubt_counts(counts, period, 0.7272, 1e-4)) is doubted

@@ -39,7 +39,7 @@ def test_beside_a_torque_of_half_the_voltage_something_else_drove_the_motor(
     one = variants[Verdict.UNDECIDED]
     largest = max(float(np.abs(recording.voltage).max()) for recording in one.after.recordings)
     large = replace(one, disturbance=Disturbance(share * largest, 0.1, 0.2, 0.1))
-    words = f"That is {100.0 * share:.2g} % of the {largest:.3g} V that was applied at most"
+    words = f"That is {100.0 * share:.0f} % of the {largest:.3g} V that was applied at most"
     cause = "the voltage that was logged is probably not what drove the motor."
     assert (f"{words}: {cause}" in summarize_diagnosis(large)) is said
     driven = tuple(replace(one, voltage=np.full(len(one), largest)) for one in large.after.recordings)

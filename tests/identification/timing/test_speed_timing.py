@@ -153,7 +153,6 @@ def test_what_is_known_to_be_in_a_motor_tells_how_speeds_were_made(known: tuple[
     assert found is not None and found.lag == lag
 
 
-@pytest.mark.slow
 def quick(sigma: float = 3.0, seconds: float = 4.0, seed: int = 3) -> Recording:
     """A small motor at 1 kHz whose inductance takes a third of its time constant, by a tachogenerator's instants."""
     motor = {"kv": 0.03, "ka": 1.5e-4, "ks": 1.5, "electrical_time_constant": 0.0016}
@@ -177,6 +176,7 @@ def test_instants_are_found_beside_an_inductance_that_hides_them() -> None:
         assert values["ks"] == pytest.approx(1.5, rel=0.02) and values["ka"] == pytest.approx(1.5e-4, rel=0.02)
 
 
+@pytest.mark.slow
 def test_a_diagnosis_finds_the_timing_again_where_a_lag_undoes_it(monkeypatch: pytest.MonkeyPatch) -> None:
     timings = iter((OTHERS[1], OTHERS[0]))
     monkeypatch.setattr(diagnose_module, "find_timing_beside", lambda *_, **__: next(timings))

@@ -6,7 +6,7 @@ falls by 1 − d·(1 − e^(−t/τ)) before the motor gets it.
 """
 
 from dataclasses import replace
-from math import exp
+from math import exp, log
 
 import numpy as np
 from scipy.optimize import minimize_scalar
@@ -23,9 +23,11 @@ from motor_identification.noise.error_data import log_likelihood
 from motor_identification.noise.gain_learning import score_under_own_errors
 from motor_identification.recording import Recording
 from motor_identification.validation.instants import comes_slowly
+from motor_model.effects import EFFECT_BY_NAME
 
 CAUSE = "a supply that runs down, by {:.0%} within the recording (a battery, or a regulator that gives way)"
-TIMES = (0.15, 0.5, 3.5)  # of the longest recording: constants in which it runs down
+TIMES = (0.15, 0.5, 3.5)  # of the longest recording: constants in which it runs down, beside the warming-up's own
+APART, TIME_PRECISION = 3.0, 0.05  # about the likeliest of those: times, and of a time's logarithm
 MOST_DROOP = 0.5  # of the voltage at the start
 PRECISION, MOST_FITS = 0.005, 8  # of the droop at the end of a recording, and fits that find it
 
@@ -33,20 +35,41 @@ PRECISION, MOST_FITS = 0.005, 8  # of the droop at the end of a recording, and f
 def find_droop(effect: str, without: Model, current: Model) -> Structure | None:
     """Find the supply that runs down and makes the motion likelier than the warming-up of a model.
 
-    without: the model that lacks the warming-up. None where it does not stand in for such a supply.
+    without: the model that lacks the warming-up. None where it does not stand in for such a supply, or where the supply
+    was measured.
     """
-    if not comes_slowly(effect) or not (current.beside_torque or current.above_floor):
+    recordings = current.estimate.problem.recordings
+    measured = any(np.any(np.isfinite(recording.supply_voltage)) for recording in recordings)
+    if measured or not comes_slowly(effect) or not (current.beside_torque or current.above_floor):
         return None
     bare = drop_effect(current.estimate, effect)
-    having, lacking = _score(current.estimate, current), _score(without.estimate, current)
-    duration = max(recording.duration for recording in bare.problem.recordings)
-    likelihood, droop, drooping = max(
-        (_find_likeliest(bare, current, share * duration) for share in TIMES), key=lambda found: found[0]
-    )
-    if likelihood <= having or (gain := _score(drooping, current)) <= having + thresholds.DROOPING_GAIN:
+    duration = max(recording.duration for recording in recordings)
+    own = current.estimate.parameters.value(EFFECT_BY_NAME[effect].parameters[-1].name)
+    times = [*(share * duration for share in TIMES), own]
+    _, begin = max((_find_likeliest(bare, current, time)[0], time) for time in times)
+    droop, drooping = _find_likeliest_time(bare, current, begin)
+    having, lacking, found = (_score(one, current) for one in (current.estimate, without.estimate, drooping))
+    if found <= having + thresholds.DROOPING_GAIN:
         return None
     share = 1.0 - drooping.cost / without.estimate.cost
-    return Structure(BY_TIME, share, gain - lacking, relevant=True, cause=CAUSE.format(droop))
+    count = sum(len(data.first) for data in drooping.problem.intervals)
+    white_share = 1.0 - exp(-2.0 * (found - lacking) / count)  # where the sensor hides it
+    return Structure(BY_TIME, max(share, white_share), found - lacking, relevant=True, cause=CAUSE.format(droop))
+
+
+def _find_likeliest_time(bare: Estimate, current: Model, begin: float) -> tuple[float, Estimate]:
+    """Find the droop at the longest recording's end, and its fit, with the likeliest time constant about one [s]."""
+    best = _find_likeliest(bare, current, begin)
+
+    def judge(logarithm: float) -> float:
+        nonlocal best
+        tried = _find_likeliest(bare, current, exp(logarithm))
+        best = max(best, tried, key=lambda one: one[0])
+        return -tried[0]
+
+    within = log(begin / APART), log(begin * APART)
+    minimize_scalar(judge, bounds=within, method="bounded", options={"xatol": TIME_PRECISION, "maxiter": MOST_FITS})
+    return best[1], best[2]
 
 
 def _find_likeliest(bare: Estimate, current: Model, time: float) -> tuple[float, float, Estimate]:

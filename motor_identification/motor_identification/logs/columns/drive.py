@@ -34,6 +34,7 @@ _SUPPLIES = (15.0, 18.0, 24.0, 36.0, 48.0)  # [V] where commands are cut off
 _MOST_VOLTS = 12.0  # of a command that never is larger: a duty of so few per cent, or of 255, moves no motor
 _CUT_OFF = 3  # rows at the largest command
 _BITS_8 = 255.0  # a duty of so many at most is called a voltage by some
+_OF_DUTY = " (of a duty, say --full-duty)"
 _STEADY_SUPPLY = 0.5  # of its largest value: a supply stays above, a motor's voltage passes 0
 MILLIVOLTS_FROM = 100.0  # such a supply is given in mV
 _EFFORT = "effort"  # of joint states
@@ -64,7 +65,10 @@ def voltage_drive(heading: Heading, values: Floats) -> Drive:
         if FEWEST_MILLIVOLTS <= largest <= 1e3 * LARGEST_VOLTS and set(heading.words) & VOLTAGE_WORDS:
             return Drive(1e-3, "in mV (assumed; otherwise: --full-duty, --voltage-scale)")
         if set(heading.words) & VOLTAGE_WORDS and _is_mains(values, largest):
-            return Drive(None, f"stays near {largest:.4g} V, more than a small motor gets", sure=False)
+            usual = float(np.median(values[values != 0.0]))
+            return Drive(
+                None, f"stays near {usual:.4g}, which in V is more than a small motor gets{_OF_DUTY}", sure=False
+            )
         return duty_drive(heading, values)
     if largest > MOST_VOLTS and heading.quantity is not None:
         if set(heading.words) & VOLTAGE_WORDS:
@@ -126,8 +130,9 @@ def _is_cut_off(values: Floats) -> bool:
 
 
 def _is_mains(values: Floats, largest: float) -> bool:
-    """Whether what is called a voltage, shape (K,), is one of a large machine: beyond 8 bits, and it never swings."""
-    return largest > _BITS_8 and largest not in FULL_DUTIES and bool(np.all(values >= _STEADY_SUPPLY * largest))
+    """Whether what is called a voltage, shape (K,), is a large machine's: beyond 8 bits, and on it never swings."""
+    on = values[values != 0.0]
+    return largest > _BITS_8 and largest not in FULL_DUTIES and bool(np.all(on >= _STEADY_SUPPLY * largest))
 
 
 def _is_odd_timer(largest: float) -> bool:

@@ -169,6 +169,7 @@ def _find_speed_with_unit(table: Table, pair: Pair, said: Said, period: float, s
         return ""
     speed = _find_speed_beside(table, pair, Kind.POSITION, said)
     known = bool(speed) and UNITS[Kind.SPEED].get(read_heading(speed).unit) is not None
+    known = known and bool(np.any(table.numbers(speed)))  # else the position is all that moves
     return speed if known and not _unit(table, heading, Kind.POSITION, said, period, stamps).name else ""
 
 

@@ -234,6 +234,18 @@ def test_a_speed_with_a_unit_is_read_where_nothing_tells_that_of_the_position(
     assert asked.motion == of_position
 
 
+def test_a_speed_of_zeros_is_none_beside_a_position_that_moves() -> None:
+    position, volts = np.linspace(0.0, 80.3, 200), np.repeat([5.0, 15.0], 100)
+    columns = {
+        "time [s]": 0.01 * np.arange(200),
+        "voltage [V]": volts,
+        "position": position,
+        "speed [rpm]": 0.0 * volts,
+    }
+    with pytest.raises(RecordingError, match="position in .*: say --unit"):
+        guess_forms(Table(Path("log.csv"), np.arange(200), columns), Said())
+
+
 def test_joint_states_are_in_radians() -> None:
     for motion, unit in (("/joint_states/arm/velocity", "rad/s"), ("/joint_states/arm/position", "rad")):
         notes = Notes([], [])
