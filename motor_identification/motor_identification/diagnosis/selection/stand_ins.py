@@ -24,8 +24,8 @@ def drop_stand_ins(selection: Selection) -> Selection:
     the spectrum over the angle is its own evidence, and so is a standstill under a voltage, or friction nearly all of
     the time. Where what is left comes and goes whatever the motor does, no finding that answers its motion stands in
     for that; and no friction for what goes with the past, such as a sensor's filter. Where nothing else is left, nor
-    does anything that is said by speed and voltage of the moment, as a coasting bridge is: those are explained. Nor does
-    a warming-up that is not quite the table's, as where the heat follows the drive.
+    does anything that is said by speed and voltage of the moment, as a coasting bridge is: those are explained. Nor
+    does a warming-up that is not quite the table's, as where the heat follows the drive.
     """
     if selection.model.complete:
         return selection
