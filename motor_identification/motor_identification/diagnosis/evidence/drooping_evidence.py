@@ -38,9 +38,10 @@ def find_droop(effect: str, without: Model, current: Model) -> Structure | None:
     without: the model that lacks the warming-up. None where it does not stand in for such a supply, or where the supply
     was measured.
     """
+    if not comes_slowly(effect) or not (current.beside_torque or current.above_floor):
+        return None
     recordings = current.estimate.problem.recordings
-    measured = any(np.any(np.isfinite(recording.supply_voltage)) for recording in recordings)
-    if measured or not comes_slowly(effect) or not (current.beside_torque or current.above_floor):
+    if any(np.any(np.isfinite(recording.supply_voltage)) for recording in recordings):
         return None
     bare = drop_effect(current.estimate, effect)
     duration = max(recording.duration for recording in recordings)
