@@ -96,12 +96,17 @@ def _noise(counters: LinkCounters, was: LinkCounters) -> str:
 
 
 def _encoder(errors: int, board: Hello | None) -> str:
-    """Transitions that no motion makes."""
+    """Transitions that no motion makes, and edges that the board had no time for."""
     if errors <= 0 or board is None:
         return ""
+    if board.channels == 1:
+        return (
+            f"More edges than the board can count came {errors} times in the last second, and counts are lost: see the "
+            "encoder's cable and supply for noise, or take an encoder with fewer edges."
+        )
     return (
-        f"Both encoder lines changed at once {errors} times in the last second, and the counts there are lost: see the "
-        "encoder's cable and supply, or count less with quadrature 2."
+        f"Both encoder lines changed at once, or too fast, {errors} times in the last second, and the counts there are "
+        "lost: see the encoder's cable and supply, or count less with quadrature 2."
     )
 
 

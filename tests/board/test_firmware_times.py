@@ -9,7 +9,7 @@ from emulated_board import MS, TICK, Bench, on_the_larger_chip_slowly
 from tiers import keep_fast
 
 from motor_board.build import FirmwareConfig
-from motor_board.emulation.edges import Edges, Line
+from motor_board.emulation.edges import FORWARD, Edges, Line
 from motor_board.emulation.shaft import EncoderConfig
 from motor_driver.frames.codes import Flag
 from motor_driver.frames.from_board import Hello, Pong, Telemetry
@@ -131,6 +131,104 @@ def test_a_storm_of_edges_holds_nothing_up(make_bench: MakeBench, channels: int,
         assert bench.chip.pins.share == 0.5 or k < 2
     assert 100 * MS <= bench.chip.cycle - silent <= 110 * MS and bench.chip.resets == 0
     assert bench.chip.cycle - bench.chip.clock_zero - bench.last(Telemetry).time * TICK < 5 * MS
+    assert bench.last(Telemetry).errors > 20  # what was not heard is told, by one channel as well
+    assert_edges_are_heard(bench, channels, fold)
+
+
+def feed(bench: Bench, cycles: np.ndarray, what: np.ndarray) -> None:
+    """Edges on the lines, with commands meanwhile."""
+    while bench.chip.cycle < cycles[-1] + MS:
+        bench.send(Command(0))
+        now = np.uint64(bench.chip.cycle)
+        near = (cycles > now) & (cycles <= now + np.uint64(4 * MS))
+        bench.chip.set_edges(int(now), Edges(cycles[near], what[near]))
+        bench.run(2)
+
+
+def forward(bench: Bench, count: int, rate: float, channels: int, fold: int) -> tuple[np.ndarray, np.ndarray]:
+    """So many flanks, from now on; twofold those of A alone."""
+    cycles = (bench.chip.cycle + np.arange(1, count + 1) * (16e6 / rate)).astype(np.uint64)
+    phase = 2 * (np.arange(count) % 2) if fold == 2 else np.arange(count) % 4
+    return cycles, FORWARD[phase] if channels == 2 else np.zeros(count, np.uint8)
+
+
+def assert_edges_are_heard(bench: Bench, channels: int, fold: int) -> None:
+    bench.chip.set_edges(bench.chip.cycle, Edges(np.zeros(0, np.uint64), np.zeros(0, np.uint8)))
+    bench.run(20)
+    before = bench.last(Telemetry)
+    feed(bench, *forward(bench, 400, 2_000, channels, fold))
+    bench.run(5)
+    after = bench.last(Telemetry)
+    counts = 400 if channels == 1 else 100 * fold if fold != 2 else 400
+    assert abs((after.edge_count - before.edge_count) % 2**32 - counts) <= 2  # A's level may be another at first
+    assert after.errors == before.errors
+
+
+@on_the_larger_chip_slowly
+@pytest.mark.parametrize("rate", keep_fast([60_000, 100_000, 210_000], 100_000))
+@pytest.mark.parametrize(
+    ("channels", "fold"), [(1, 1), (2, 1), (2, 2), (2, 4)], ids=["one", "two", "twofold", "fourfold"]
+)
+def test_edges_are_heard_again_after_a_storm(make_bench: MakeBench, channels: int, fold: int, rate: int) -> None:
+    """Twofold and fourfold they were not, ever: the count of what there was time for went below 0."""
+    bench = make_bench(config=FirmwareConfig(channels=channels))
+    bench.run(8)
+    bench.send(Setup(fold, 0))
+    bench.run(4)
+    bench.send(Configure(2_000, 100, 0))
+    bench.run(8)
+    bench.emulator._plan = lambda until: bench.emulator.shaft.plan(until)  # type: ignore[method-assign,assignment]
+    gaps = np.maximum(np.random.default_rng(1).exponential(16e6 / rate, rate * 6 // 100), 8)
+    falls = np.where(np.arange(len(gaps)) % 2 == 1, Line.A_FALLS if channels == 2 else 0, Line.A_STAYS)
+    feed(bench, (bench.chip.cycle + np.cumsum(gaps)).astype(np.uint64), falls.astype(np.uint8))
+    assert bench.last(Telemetry).errors > 5 and bench.chip.resets == 0
+    assert_edges_are_heard(bench, channels, fold)
+
+
+@pytest.mark.parametrize(
+    ("channels", "fold", "rate", "period"),
+    [(1, 1, 36_000, 10_000), (1, 1, 50_000, 10_000), (1, 1, 36_000, 2_000), (1, 1, 45_000, 2_000)]
+    + [(2, 1, 44_000, 10_000), (2, 1, 44_000, 2_000), (2, 2, 36_000, 10_000), (2, 4, 36_000, 10_000)]
+    + [(2, 4, 30_000, 2_000)],
+)
+def test_the_fastest_signals_keep_their_period(
+    make_bench: MakeBench, channels: int, fold: int, rate: int, period: int
+) -> None:
+    """All were without one where some of a sample's edges were not heard: a speed of 0 at the highest one."""
+    frames = run_fast(make_bench, channels, fold, rate, period)
+    turn = 2 if fold == 2 else 4
+    each = 2e6 / rate * (1 if channels == 1 else turn / fold)
+    periods = np.array([frame.edge_period for frame in frames]) / each
+    assert all(frame.edge_valid for frame in frames) and periods.min() > 0.9
+    assert periods.max() < 2.2 and (rate > 36_000 or periods.max() < 1.1)  # beside a tick an edge may be lost
+    counts = (frames[-1].edge_count - frames[0].edge_count) / ((frames[-1].time - frames[0].time) / each)
+    assert abs(counts - 1.0) < 0.03 and frames[-1].errors == frames[0].errors
+
+
+@pytest.mark.parametrize(
+    ("channels", "fold", "rate", "period"), [(1, 1, 60_000, 2_000), (1, 1, 80_000, 10_000), (2, 2, 45_000, 2_000)]
+)
+def test_a_signal_that_is_too_fast_has_its_speed_and_errors(
+    make_bench: MakeBench, channels: int, fold: int, rate: int, period: int
+) -> None:
+    frames = run_fast(make_bench, channels, fold, rate, period)
+    assert all(0 < frame.edge_period < 4.5e6 / rate and frame.edge_valid for frame in frames)
+    assert all(frame.time - frame.edge_time < 8e6 / rate for frame in frames)  # the driver's bound of the speed
+    assert (frames[-1].errors - frames[0].errors) % 256 > 5
+
+
+def run_fast(make_bench: MakeBench, channels: int, fold: int, rate: int, period: int) -> list[Telemetry]:
+    bench = make_bench(config=FirmwareConfig(channels=channels))
+    bench.run(8)
+    bench.send(Setup(fold, 0))
+    bench.run(4)
+    bench.send(Configure(period, 100, 0))
+    bench.run(8)
+    bench.emulator._plan = lambda until: bench.emulator.shaft.plan(until)  # type: ignore[method-assign,assignment]
+    feed(bench, *forward(bench, rate // 10, rate, channels, fold))
+    assert bench.chip.resets == 0
+    frames = bench.all(Telemetry)[:-5]
+    return frames[-len(frames) * 2 // 3 :]
 
 
 @on_the_larger_chip_slowly

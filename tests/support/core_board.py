@@ -21,7 +21,7 @@ class CoreBoard:
         self.lib.device_start(byref(self.device), byref(config), 5, 1)
         self.now, self.overflows, self.seq = 0, 0, 0
         self.decoder = Decoder()
-        self.compare = 10_000
+        self.compare = self.device.compare % 65536
 
     def step(self, late: int = 0) -> None:
         """The next compare interrupt, which is held up for so long [tick]."""

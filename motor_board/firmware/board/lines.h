@@ -21,9 +21,14 @@ static inline void lines_start(void)
 
 #if MOTOR_CHANNELS == 2
 /* Which line interrupts on every change: A's falls for one count in a period, none for two, B for four. */
+static inline uint8_t lines_watched(uint8_t fold)
+{
+    return fold == 1 ? LINES_A_CHANGES : fold == 4 ? LINES_B_CHANGES : 0;
+}
+
 static inline void lines_interrupt(uint8_t fold)
 {
-    LINES_INTERRUPTS = fold == 1 ? LINES_A_CHANGES : fold == 4 ? LINES_B_CHANGES : 0;
+    LINES_INTERRUPTS = lines_watched(fold);
 }
 
 /* Both, as `quadrature` has them. */

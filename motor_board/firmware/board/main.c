@@ -80,6 +80,7 @@ static void send(void)
             return;
         }
         serial_send(frame_seal(frame.data, frame.type, frame.seq, frame.size, wire));
+        tick_feed_watchdog(); /* where there is always another frame, that is no hang */
     }
 }
 

@@ -39,6 +39,8 @@
 #define CLOCK_SENSE_vect TIMER1_COMPB_vect
 
 #define EDGES_LEFT GPIOR0 /* interrupts of edges that there is time for until the next tick; 0: they are off */
+#define TICKS_UNFED GPIOR2 /* compare interrupts since the watchdog was fed, as far as they matter */
+#define EDGE_STALE GPIOR1 /* the capture interrupt that is due is one of an edge that was not heard in time */
 
 #define SERIAL_RECEIVED_vect USART_RX_vect
 #define SERIAL_EMPTY_vect USART_UDRE_vect

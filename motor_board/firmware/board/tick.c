@@ -17,7 +17,9 @@
 #include "sense.h"
 #include "supply.h"
 
-static volatile bool ticking; /* since the watchdog was fed */
+#define EDGES_OVERTAKING 9u /* of the 16 kept: seven are left, enough for a period */
+#define STARVING 10u /* compare interrupts without a turn of the main loop; the watchdog waits for 60 ms */
+
 #if MOTOR_CURRENT_SENSE
 static struct guard_memory heat __attribute__((section(".noinit"))); /* outlives a reset, not a power-down */
 #endif
@@ -33,8 +35,8 @@ void tick_start(void)
 
 void tick_feed_watchdog(void)
 {
-    if (ticking) {
-        ticking = false;
+    if (TICKS_UNFED) {
+        TICKS_UNFED = 0;
         wdt_reset();
     }
 }
@@ -45,27 +47,43 @@ ISR(CLOCK_OVERFLOW_vect)
 }
 
 /* Edges may come meanwhile: times are copied with interrupts on, and as many of the oldest ones as such edges overwrite
- * are not used. Two or three come where other interrupts are in between. */
+ * are not used. Two or three come where other interrupts are in between. Where there are so many that none might be left,
+ * they wait: 32 us, in which one may be lost. */
 static void copy_edges(struct edge_timer *edges)
 {
-    ATOMIC_BLOCK(ATOMIC_RESTORESTATE) { memcpy(edges, &board_device.edges, offsetof(struct edge_timer, time)); }
-    memcpy(edges->time, board_device.edges.time, sizeof edges->time);
+    uint8_t left;
+    ATOMIC_BLOCK(ATOMIC_RESTORESTATE)
+    {
+        left = EDGES_LEFT;
+        memcpy(edges, &board_device.edges, offsetof(struct edge_timer, time));
+    }
+    for (uint8_t i = 0; i < EDGE_TIMER_KEPT; i += 8) { /* faster than memcpy, which goes byte by byte */
+        uint32_t *to = &edges->time[i];
+        const uint32_t *from = &board_device.edges.time[i];
+        to[0] = from[0], to[1] = from[1], to[2] = from[2], to[3] = from[3];
+        to[4] = from[4], to[5] = from[5], to[6] = from[6], to[7] = from[7];
+    }
     __asm__ volatile("" ::: "memory"); /* what an interrupt has changed meanwhile is read again */
     uint8_t newer = (uint8_t)(board_device.edges.newest - edges->newest) & (EDGE_TIMER_KEPT - 1u);
+    if ((uint8_t)(left - EDGES_LEFT) > EDGES_OVERTAKING) { /* `newer` may have gone round */
+        ATOMIC_BLOCK(ATOMIC_RESTORESTATE) { memcpy(edges, &board_device.edges, sizeof *edges); }
+        return;
+    }
     uint8_t sure = (uint8_t)(EDGE_TIMER_KEPT - newer);
     edges->known = edges->known < sure ? edges->known : sure;
 }
 
 /* Edges come first, and noise may hold a tick up until it is time for the next. No more are heard until ticks are in time. */
-static void __attribute__((noinline)) catch_up(void)
+static inline void catch_up(void)
 {
     ATOMIC_BLOCK(ATOMIC_RESTORESTATE)
     {
-        uint16_t ahead = (uint16_t)(CLOCK_TICK - CLOCK_COUNTER);
+        uint32_t now = clock_now(&board_device.edges);
+        uint32_t ahead = board_device.compare - now;
         if (ahead <= DEVICE_LONGEST_STEP) {
-            encoder_allow(ahead);
-        } else if (!clock_tick_pending()) { /* it has passed the next one already */
-            CLOCK_TICK = device_catch_up(&board_device, board_now());
+            encoder_allow((uint16_t)ahead, TICKS_UNFED > STARVING);
+        } else if (device_is_behind(&board_device, now) && !clock_tick_pending()) { /* else it comes at once */
+            CLOCK_TICK = device_catch_up(&board_device, now);
             if (MOTOR_CURRENT_SENSE) {
                 CLOCK_SENSE = (uint16_t)(board_device.tick - SENSE_LEAD);
             }
@@ -83,7 +101,9 @@ ISR(CLOCK_TICK_vect)
     if (MOTOR_CURRENT_SENSE) {
         CLOCK_SENSE = (uint16_t)(board_device.tick - SENSE_LEAD);
     }
-    ticking = true;
+    if (TICKS_UNFED <= STARVING) {
+        TICKS_UNFED++;
+    }
     board_woken = true;
     CLOCK_INTERRUPTS &= (uint8_t)~CLOCK_TICKS; /* not in itself: there is no room for that on the stack */
     sei();

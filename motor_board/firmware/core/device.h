@@ -18,7 +18,7 @@
 #include "wire.h"
 
 #define DEVICE_LONGEST_PERIOD 0x1000000ul /* [tick] */
-#define DEVICE_LONGEST_STEP 0x3800u       /* [tick] between two compare interrupts; below one turn of the counter */
+#define DEVICE_LONGEST_STEP 0x2800u       /* [tick] between two compare interrupts; below one turn of the counter */
 #define DEVICE_AHEAD 100u                 /* [tick] in which the counter can be set to the next one */
 
 /* What does not change while the board runs. */

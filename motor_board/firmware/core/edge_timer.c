@@ -25,6 +25,14 @@ void edge_timer_keep(struct edge_timer *timer, uint32_t time, uint8_t way)
     timer->known = (uint8_t)(timer->known + (timer->known < EDGE_TIMER_KEPT));
 }
 
+void edge_timer_move(struct edge_timer *timer, uint32_t time)
+{
+    uint32_t later = time - timer->time[timer->newest];
+    for (uint8_t i = 0; i < EDGE_TIMER_KEPT && later < OLD; i++) {
+        timer->time[i] += later;
+    }
+}
+
 void edge_timer_capture(struct edge_timer *timer, uint16_t counter, bool pending)
 {
     timer->count++;

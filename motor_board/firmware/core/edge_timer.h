@@ -29,7 +29,7 @@ struct edge_timer {
     bool inside, entered_reverse; /* two channels: A is high; how its rising edge was passed */
     uint8_t fold;   /* edges counted in a period of A; 0 and 1: one polarity (quadrature.h has the others) */
     uint8_t lines;  /* their levels, as far as edges have been counted */
-    uint8_t errors; /* changes of both lines at once, wraps */
+    uint8_t errors; /* changes of both lines at once, and times at which edges were not heard; wraps */
     uint32_t time[EDGE_TIMER_KEPT]; /* [tick] last, see tick.c */
 };
 
@@ -42,6 +42,11 @@ uint32_t edge_timer_extend(uint16_t overflows, uint16_t counter, bool pending);
 
 /* Keeps an edge at a 32-bit time, as the newest. */
 void edge_timer_keep(struct edge_timer *timer, uint32_t time, uint8_t way);
+
+/* Edges were not heard, the latest of them at `time`: those kept are taken for the latest ones, as far apart as they are. So
+ * a motor too fast to be counted keeps its speed in place of none, and the next edge's period is its own. Not if it is
+ * older than the newest one. */
+void edge_timer_move(struct edge_timer *timer, uint32_t time);
 
 /* How many of the edges kept came after `now` [tick]; at most 3. */
 uint8_t edge_timer_later(const struct edge_timer *timer, uint32_t now);
