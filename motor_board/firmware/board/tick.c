@@ -57,14 +57,14 @@ static void copy_edges(struct edge_timer *edges)
         left = EDGES_LEFT;
         memcpy(edges, &board_device.edges, offsetof(struct edge_timer, time));
     }
-    for (uint8_t i = 0; i < EDGE_TIMER_KEPT; i += 8) { /* faster than memcpy, which goes byte by byte */
+    for (uint8_t i = 0; i < EDGE_TIMER_KEPT; i = (uint8_t)(i + 8u)) { /* faster than memcpy, which goes byte by byte */
         uint32_t *to = &edges->time[i];
         const uint32_t *from = &board_device.edges.time[i];
         to[0] = from[0], to[1] = from[1], to[2] = from[2], to[3] = from[3];
         to[4] = from[4], to[5] = from[5], to[6] = from[6], to[7] = from[7];
     }
     __asm__ volatile("" ::: "memory"); /* what an interrupt has changed meanwhile is read again */
-    uint8_t newer = (uint8_t)(board_device.edges.newest - edges->newest) & (EDGE_TIMER_KEPT - 1u);
+    uint8_t newer = (uint8_t)((uint8_t)(board_device.edges.newest - edges->newest) & (EDGE_TIMER_KEPT - 1u));
     if ((uint8_t)(left - EDGES_LEFT) > EDGES_OVERTAKING) { /* `newer` may have gone round */
         ATOMIC_BLOCK(ATOMIC_RESTORESTATE) { memcpy(edges, &board_device.edges, sizeof *edges); }
         return;
@@ -73,8 +73,21 @@ static void copy_edges(struct edge_timer *edges)
     edges->known = edges->known < sure ? edges->known : sure;
 }
 
+/* Sets the compare interrupt to what is ahead of the counter, though that takes long itself where much was missed. A
+ * function, so that its registers are saved where it is called, and not on the way to the pins. */
+static void __attribute__((noinline)) catch_up(uint32_t now)
+{
+    do {
+        CLOCK_TICK = device_catch_up(&board_device, now);
+        now = clock_now(&board_device.edges);
+    } while (device_is_behind(&board_device, now + 1u) && !clock_tick_pending());
+    if (MOTOR_CURRENT_SENSE) {
+        CLOCK_SENSE = (uint16_t)(board_device.tick - SENSE_LEAD);
+    }
+}
+
 /* Edges come first, and noise may hold a tick up until it is time for the next. No more are heard until ticks are in time. */
-static inline void catch_up(void)
+static inline void be_in_time(void)
 {
     ATOMIC_BLOCK(ATOMIC_RESTORESTATE)
     {
@@ -83,10 +96,7 @@ static inline void catch_up(void)
         if (ahead <= DEVICE_LONGEST_STEP) {
             encoder_allow((uint16_t)ahead, TICKS_UNFED > STARVING);
         } else if (device_is_behind(&board_device, now) && !clock_tick_pending()) { /* else it comes at once */
-            CLOCK_TICK = device_catch_up(&board_device, now);
-            if (MOTOR_CURRENT_SENSE) {
-                CLOCK_SENSE = (uint16_t)(board_device.tick - SENSE_LEAD);
-            }
+            catch_up(now);
         }
     }
 }
@@ -101,13 +111,13 @@ ISR(CLOCK_TICK_vect)
     if (MOTOR_CURRENT_SENSE) {
         CLOCK_SENSE = (uint16_t)(board_device.tick - SENSE_LEAD);
     }
+    CLOCK_INTERRUPTS &= (uint8_t)~CLOCK_TICKS; /* not in itself: there is no room for that on the stack */
+    sei();
     if (TICKS_UNFED <= STARVING) {
         TICKS_UNFED++;
     }
     board_woken = true;
-    CLOCK_INTERRUPTS &= (uint8_t)~CLOCK_TICKS; /* not in itself: there is no room for that on the stack */
-    sei();
-    catch_up();
+    be_in_time();
     if (ticks) {
         struct edge_timer edges;
         while (!clock_is_past((uint16_t)board_device.latest)) {
