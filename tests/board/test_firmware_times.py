@@ -101,17 +101,23 @@ def test_noise_that_holds_the_samples_up_does_not_make_its_time_late(bench: Benc
     assert 100 * MS <= off - silent <= 106 * MS
 
 
-@on_the_larger_chip_slowly
-@pytest.mark.parametrize("rate", keep_fast([100_000, 150_000, 210_000, 260_000], 150_000, 210_000))
-@pytest.mark.parametrize(("channels", "fold"), [(1, 1), (2, 1), (2, 4)], ids=["one", "two", "two, fourfold"])
-def test_a_storm_of_edges_holds_nothing_up(make_bench: MakeBench, channels: int, fold: int, rate: int) -> None:
-    """It had no time-out meanwhile, was reset, or crashed: ticks in ticks left no room on the stack."""
+def start_counting(make_bench: MakeBench, channels: int, fold: int) -> Bench:
+    """A board that counts by so many channels and flanks, at 1 kHz."""
     bench = make_bench(config=FirmwareConfig(channels=channels))
     bench.run(8)
     bench.send(Setup(fold, 0))
     bench.run(4)
     bench.send(Configure(2_000, 100, 0))
     bench.run(8)
+    return bench
+
+
+@on_the_larger_chip_slowly
+@pytest.mark.parametrize("rate", keep_fast([100_000, 150_000, 210_000, 260_000], 150_000, 210_000))
+@pytest.mark.parametrize(("channels", "fold"), [(1, 1), (2, 1), (2, 4)], ids=["one", "two", "two, fourfold"])
+def test_a_storm_of_edges_holds_nothing_up(make_bench: MakeBench, channels: int, fold: int, rate: int) -> None:
+    """It had no time-out meanwhile, was reset, or crashed: ticks in ticks left no room on the stack."""
+    bench = start_counting(make_bench, channels, fold)
     bench.enable()
     bench.emulator._plan = lambda until: bench.emulator.shaft.plan(until)  # type: ignore[method-assign,assignment]
     gaps = np.maximum(np.random.default_rng(1).exponential(16e6 / rate, rate // 2), 8)
@@ -171,12 +177,7 @@ def assert_edges_are_heard(bench: Bench, channels: int, fold: int) -> None:
 )
 def test_edges_are_heard_again_after_a_storm(make_bench: MakeBench, channels: int, fold: int, rate: int) -> None:
     """Twofold and fourfold they were not, ever: the count of what there was time for went below 0."""
-    bench = make_bench(config=FirmwareConfig(channels=channels))
-    bench.run(8)
-    bench.send(Setup(fold, 0))
-    bench.run(4)
-    bench.send(Configure(2_000, 100, 0))
-    bench.run(8)
+    bench = start_counting(make_bench, channels, fold)
     bench.emulator._plan = lambda until: bench.emulator.shaft.plan(until)  # type: ignore[method-assign,assignment]
     gaps = np.maximum(np.random.default_rng(1).exponential(16e6 / rate, rate * 6 // 100), 8)
     falls = np.where(np.arange(len(gaps)) % 2 == 1, Line.A_FALLS if channels == 2 else 0, Line.A_STAYS)

@@ -7,20 +7,20 @@ falls by 1 − d·(1 − e^(−t/τ)) before the motor gets it.
 
 from dataclasses import replace
 from math import exp, log
+from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import minimize_scalar
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
-from motor_identification.diagnosis.fits.disturbed_fit import fit_beside_torque, list_error_data
+from motor_identification.diagnosis.fits.altered_commands import fit_altered, measure_share, score_alone
+from motor_identification.diagnosis.fits.disturbed_fit import list_error_data
 from motor_identification.diagnosis.fits.effect_fit import drop_effect
 from motor_identification.discrepancy.free_curves import BY_TIME
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.estimation.estimate import Estimate
-from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.noise.error_data import log_likelihood
-from motor_identification.noise.gain_learning import score_under_own_errors
 from motor_identification.recording import Recording
 from motor_identification.validation.instants import comes_slowly
 from motor_model.effects import EFFECT_BY_NAME
@@ -30,6 +30,15 @@ TIMES = (0.15, 0.5, 3.5)  # of the longest recording: constants in which it runs
 APART, TIME_PRECISION = 3.0, 0.05  # about the likeliest of those: times, and of a time's logarithm
 MOST_DROOP = 0.5  # of the voltage at the start
 PRECISION, MOST_FITS = 0.005, 8  # of the droop at the end of a recording, and fits that find it
+
+
+class _Droop(NamedTuple):
+    """A supply that runs down, and the motor under it."""
+
+    likelihood: float  # under a model's errors
+    end: float  # share of the voltage that is gone at the longest recording's end
+    time: float  # [s] time constant
+    fit: Estimate
 
 
 def find_droop(effect: str, without: Model, current: Model) -> Structure | None:
@@ -47,37 +56,33 @@ def find_droop(effect: str, without: Model, current: Model) -> Structure | None:
     duration = max(recording.duration for recording in recordings)
     own = current.estimate.parameters.value(EFFECT_BY_NAME[effect].parameters[-1].name)
     times = [*(share * duration for share in TIMES), own]
-    _, begin = max((_find_likeliest(bare, current, time)[0], time) for time in times)
-    droop, drooping = _find_likeliest_time(bare, current, begin)
-    having, lacking, found = (_score(one, current) for one in (current.estimate, without.estimate, drooping))
+    droop = _refine_time(bare, current, max((_find_likeliest(bare, current, time) for time in times), key=_likelihood))
+    having, lacking, found = (score_alone(one, current) for one in (current.estimate, without.estimate, droop.fit))
     if found <= having + thresholds.DROOPING_GAIN:
         return None
-    share = 1.0 - drooping.cost / without.estimate.cost
-    count = sum(len(data.first) for data in drooping.problem.intervals)
-    white_share = 1.0 - exp(-2.0 * (found - lacking) / count)  # where the sensor hides it
-    return Structure(BY_TIME, max(share, white_share), found - lacking, relevant=True, cause=CAUSE.format(droop))
+    share = measure_share(droop.fit, without, found - lacking)
+    return Structure(BY_TIME, share, found - lacking, relevant=True, cause=CAUSE.format(droop.end))
 
 
-def _find_likeliest_time(bare: Estimate, current: Model, begin: float) -> tuple[float, Estimate]:
-    """Find the droop at the longest recording's end, and its fit, with the likeliest time constant about one [s]."""
-    best = _find_likeliest(bare, current, begin)
+def _likelihood(droop: _Droop) -> float:
+    return droop.likelihood
+
+
+def _refine_time(bare: Estimate, current: Model, best: _Droop) -> _Droop:
+    """Find the droop with the likeliest time constant about one."""
+    tried = [best]
 
     def judge(logarithm: float) -> float:
-        nonlocal best
-        tried = _find_likeliest(bare, current, exp(logarithm))
-        best = max(best, tried, key=lambda one: one[0])
-        return -tried[0]
+        tried.append(_find_likeliest(bare, current, exp(logarithm)))
+        return -tried[-1].likelihood
 
-    within = log(begin / APART), log(begin * APART)
+    within = log(best.time / APART), log(best.time * APART)
     minimize_scalar(judge, bounds=within, method="bounded", options={"xatol": TIME_PRECISION, "maxiter": MOST_FITS})
-    return best[1], best[2]
+    return max(tried, key=_likelihood)
 
 
-def _find_likeliest(bare: Estimate, current: Model, time: float) -> tuple[float, float, Estimate]:
-    """Find the droop at the longest recording's end with which the motion is likeliest, for a time constant [s].
-
-    Returns the likelihood under a model's errors, the droop and the fit.
-    """
+def _find_likeliest(bare: Estimate, current: Model, time: float) -> _Droop:
+    """Find the droop with which the motion is likeliest, for a time constant [s]."""
     ends = 1.0 - exp(-max(recording.duration for recording in bare.problem.recordings) / time)
     fits: dict[float, tuple[float, Estimate]] = {}
 
@@ -89,20 +94,12 @@ def _find_likeliest(bare: Estimate, current: Model, time: float) -> tuple[float,
     options = {"xatol": PRECISION, "maxiter": MOST_FITS}
     found = minimize_scalar(fit, bounds=(0.0, MOST_DROOP * ends), method="bounded", options=options)
     likelihood, fitted = fits[float(found.x)]
-    return likelihood, float(found.x), fitted
+    return _Droop(likelihood, float(found.x), time, fitted)
 
 
 def _fit_drooping(estimate: Estimate, current: Model, droop: float, time: float) -> Estimate:
     """Fit an estimate again to recordings under a supply that runs down, as a model was fitted."""
-    drooping = tuple(run_down(recording, droop, time) for recording in estimate.problem.recordings)
-    begin = estimate.on(replace(estimate.problem, recordings=drooping))
-    return fit_speeds(begin) if current.learned is None else fit_beside_torque(begin, current.learned)
-
-
-def _score(estimate: Estimate, current: Model) -> float:
-    """Compute the log likelihood of what is left, under errors that are learned of it."""
-    rows = list_error_data(estimate)
-    return score_under_own_errors(rows, estimate.lag, current.errors, thresholds.CANDIDATE_EVALUATIONS)
+    return fit_altered(estimate, current, [run_down(one, droop, time) for one in estimate.problem.recordings])
 
 
 def run_down(recording: Recording, droop: float, time: float) -> Recording:

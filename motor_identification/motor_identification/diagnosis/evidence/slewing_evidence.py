@@ -14,14 +14,13 @@ from scipy.optimize import minimize_scalar
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import likelihood_threshold
-from motor_identification.diagnosis.fits.disturbed_fit import fit_beside_torque, list_error_data
+from motor_identification.diagnosis.fits.altered_commands import fit_altered, measure_share, score_alone
+from motor_identification.diagnosis.fits.disturbed_fit import list_error_data
 from motor_identification.diagnosis.fits.effect_fit import drop_effect
 from motor_identification.discrepancy.free_curves import PAST
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.estimation.estimate import Estimate
-from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.noise.error_data import log_likelihood
-from motor_identification.noise.gain_learning import score_under_own_errors
 from motor_identification.recording import Floats, Recording
 from motor_model.compiled import compiled
 from motor_model.effects import EFFECT_BY_NAME, LAGS
@@ -43,14 +42,14 @@ def find_slewing(effect: str, without: Model, current: Model) -> Structure | Non
     bare, late = _drop_lags(current.estimate)
     if not np.any(changes) or late <= 0.0:
         return None
-    having, lacking = (_score(model.estimate, current) for model in (current, without))
+    having, lacking = (score_alone(model.estimate, current) for model in (current, without))
     likeliest = _find_likeliest(bare, current, _guess_rate(changes, late), having - 0.5 * abs(having - lacking))
     if likeliest is None:
         return None
     rate, slewing, found = likeliest
     if found <= having + thresholds.SLEWING_GAIN:
         return None
-    both = _score(_fit_slewing(current.estimate, current, rate), current)
+    both = score_alone(_fit_slewing(current.estimate, current, rate), current)
     return None if both > found + likelihood_threshold() else _describe(slewing, without, found - lacking, rate)
 
 
@@ -87,30 +86,22 @@ def _find_likeliest(bare: Estimate, current: Model, guess: float, least: float) 
         return None
     within = log(best / APART), log(best * APART)
     options = {"xatol": PRECISION, "maxiter": MOST_FITS}
-    found = minimize_scalar(lambda x: -_score(fit(exp(x)), current), bounds=within, method="bounded", options=options)
-    score, rate = max((_score(fits[best], current), best), (-found.fun, exp(found.x)))
+    found = minimize_scalar(
+        lambda x: -score_alone(fit(exp(x)), current), bounds=within, method="bounded", options=options
+    )
+    score, rate = max((score_alone(fits[best], current), best), (-found.fun, exp(found.x)))
     return rate, fits[rate], score
 
 
 def _fit_slewing(estimate: Estimate, current: Model, rate: float) -> Estimate:
     """Fit an estimate again to recordings whose command slews at a rate [V/s], as a model was fitted."""
-    slewing = tuple(slew(recording, rate) for recording in estimate.problem.recordings)
-    begin = estimate.on(replace(estimate.problem, recordings=slewing))
-    return fit_speeds(begin) if current.learned is None else fit_beside_torque(begin, current.learned)
-
-
-def _score(estimate: Estimate, current: Model) -> float:
-    """Compute the log likelihood of what is left, under errors that are learned of it."""
-    rows = list_error_data(estimate)
-    return score_under_own_errors(rows, estimate.lag, current.errors, thresholds.CANDIDATE_EVALUATIONS)
+    return fit_altered(estimate, current, [slew(recording, rate) for recording in estimate.problem.recordings])
 
 
 def _describe(slewing: Estimate, without: Model, gain: float, rate: float) -> Structure:
     """Describe what a bridge that slews at a rate [V/s] takes of what a model leaves: it goes with the past."""
-    share = 1.0 - slewing.cost / without.estimate.cost
-    count = sum(len(data.first) for data in slewing.problem.intervals)
-    white_share = 1.0 - exp(-2.0 * gain / count)  # where the sensor hides it
-    return Structure(PAST, max(share, white_share), gain, relevant=True, cause=CAUSE.format(rate))
+    share = measure_share(slewing, without, gain)
+    return Structure(PAST, share, gain, relevant=True, cause=CAUSE.format(rate))
 
 
 def slew(recording: Recording, rate: float) -> Recording:

@@ -11,6 +11,7 @@ from tiers import keep_fast
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.evidence.drooping_evidence import find_droop, run_down
+from motor_identification.diagnosis.fits.altered_commands import score_alone
 from motor_identification.diagnosis.selection.backward_elimination import eliminate_backward
 from motor_identification.diagnosis.selection.selection import Selection
 from motor_identification.progress import ProgressReporter
@@ -81,17 +82,10 @@ def test_it_has_to_gain_more_than_the_warming_up_by_a_margin(
     (step,) = selected("drooping").steps
     found = find_droop("warm_up", step.before, step.found.model)
     assert found is not None
-    model, warm = step.found.model, find_gain(step.before, step.found.model)
+    model = step.found.model
+    warm = score_alone(model.estimate, model) - score_alone(step.before.estimate, model)
     monkeypatch.setattr(thresholds, "DROOPING_GAIN", found.significance - warm + over)
     assert (find_droop("warm_up", step.before, model) is not None) is stands_in
-
-
-def find_gain(without: object, model: object) -> float:
-    """What the warming-up is likelier by, judged as the supply is."""
-    from motor_identification.diagnosis.evidence import drooping_evidence as module
-
-    score = module._score
-    return float(score(model.estimate, model) - score(without.estimate, model))  # type: ignore[attr-defined, arg-type]
 
 
 def test_only_what_comes_slowly_is_judged() -> None:
