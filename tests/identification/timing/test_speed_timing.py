@@ -1,6 +1,6 @@
 """When a log's speeds were made shows in the motion, and only there where nobody said it."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from types import SimpleNamespace
 from typing import Any, cast
@@ -12,9 +12,9 @@ from recorded import as_speed, without_count
 from swinging import RUBBING, noisy
 from tiers import keep_fast
 
-from motor_identification import diagnose as diagnose_module
 from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis.result import Verdict
+from motor_identification.diagnosis.selection import timed_selection
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import Problem, make_problem
 from motor_identification.estimation.request import SearchConfig
@@ -179,7 +179,7 @@ def test_instants_are_found_beside_an_inductance_that_hides_them() -> None:
 @pytest.mark.slow
 def test_a_diagnosis_finds_the_timing_again_where_a_lag_undoes_it(monkeypatch: pytest.MonkeyPatch) -> None:
     timings = iter((OTHERS[1], OTHERS[0]))
-    monkeypatch.setattr(diagnose_module, "find_timing_beside", lambda *_, **__: next(timings))
+    monkeypatch.setattr(timed_selection, "find_timing_beside", lambda *_, **__: next(timings))
     heard: list[float] = []
     found = diagnose([swept()], progress=lambda stage: heard.append(stage.share))
     assert heard == sorted(heard) and heard.count(0.95) > 3
@@ -190,121 +190,10 @@ def test_a_diagnosis_finds_the_timing_again_where_a_lag_undoes_it(monkeypatch: p
 @pytest.mark.slow
 def test_a_timing_by_which_more_is_left_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
     timings = iter((OTHERS[1], Timing(1.0, 9.5, "")))
-    monkeypatch.setattr(diagnose_module, "find_timing_beside", lambda *_, **__: next(timings))
+    monkeypatch.setattr(timed_selection, "find_timing_beside", lambda *_, **__: next(timings))
     found = diagnose([swept()])
     assert next(timings, None) is None and found.model.timing == OTHERS[1]
     assert {"supply_sag", "transport_delay"} < {finding.effect for finding in found.findings}
-
-
-@pytest.mark.parametrize(
-    ("gap", "above", "complete", "taken"),
-    [(4.9, True, True, True), (5.1, True, True, False), (4.9, False, True, False), (4.9, True, False, False)],
-)
-def test_a_filter_behind_which_much_is_left_is_doubted(
-    monkeypatch: pytest.MonkeyPatch, gap: float, above: bool, complete: bool, taken: bool
-) -> None:
-    """Of times between edges a ripple was taken for one: with its true timing a ninth was left."""
-    smoothed = replace(ASSUMED, filter=SpeedFilter("twice", 0.3))
-    asked: list[bool] = []
-
-    def look(first: Any, selection: Any, filtered: bool = True, **_: Any) -> Timing:
-        asked.append(filtered)
-        return smoothed if filtered else OTHERS[0]
-
-    gaps = iter([(10.0, above), (gap, True)])
-
-    def select(*_: Any) -> Any:
-        left, over = next(gaps)
-        model = SimpleNamespace(held=SimpleNamespace(gap=left), above_floor=over, complete=complete)
-        return SimpleNamespace(selection=SimpleNamespace(model=model), effects=("torque_ripple",), finished=True)
-
-    def again(first: Any, timing: Timing, *_: Any) -> Any:
-        return SimpleNamespace(selection=None, timing=timing)
-
-    monkeypatch.setattr(diagnose_module, "find_timing_beside", look)
-    monkeypatch.setattr(diagnose_module, "_select_in_time", select)
-    monkeypatch.setattr(diagnose_module, "begin_as_timed", again)
-    limit = SimpleNamespace(begin_with=lambda _: None, begin_again=lambda: True)
-    reporter = SimpleNamespace(stopped=lambda: False, beyond=lambda _: None)
-    first = SimpleNamespace(selection=None)
-    start, _ = diagnose_module._select_as_timed(first, Request(), reporter, limit)  # type: ignore[arg-type]
-    assert start.timing == (OTHERS[0] if taken else smoothed)
-    assert asked == ([True, False] if above else [True])
-
-
-@pytest.mark.parametrize(
-    ("above", "complete", "steps", "told", "explained", "taken"),
-    [
-        (True, False, True, True, True, True),
-        (False, False, True, True, True, False),  # nothing is left
-        (True, True, True, True, True, False),  # but what is random
-        (True, False, False, True, True, False),  # and nothing is near
-        (True, False, True, False, True, False),
-        (True, False, True, True, False, False),  # by the other timing, too
-    ],
-)
-def test_the_nearest_model_is_asked_for_the_timing_where_something_is_left(
-    monkeypatch: pytest.MonkeyPatch, above: bool, complete: bool, steps: bool, told: bool, explained: bool, taken: bool
-) -> None:
-    """A backlash that nobody knew of hid it, and half a row kept the backlash from explaining what it does."""
-    nearest = SimpleNamespace(steps=(1,) if steps else ())
-    begun: list[Any] = []
-    states = iter([(above, complete), (True, explained)])
-
-    def select(*_: Any) -> Any:
-        over, done = next(states)
-        model = SimpleNamespace(held=SimpleNamespace(gap=1.0), above_floor=over, complete=done)
-        return SimpleNamespace(selection=SimpleNamespace(model=model), effects=("backlash",), finished=True)
-
-    def look(first: Any, selection: Any, lagging: bool = False) -> Timing | None:
-        assert lagging is (selection is nearest)
-        return OTHERS[0] if selection is nearest and told else None
-
-    monkeypatch.setattr(diagnose_module, "find_timing_beside", look)
-    monkeypatch.setattr(diagnose_module, "_select_in_time", select)
-    again = SimpleNamespace(selection=None, timing=OTHERS[0])
-    first = SimpleNamespace(selection=None, timing=None)
-    begin: Callable[..., Any] = lambda one, timing, *_: again if timing else first  # noqa: E731
-    monkeypatch.setattr(diagnose_module, "begin_as_timed", begin)
-    limit = SimpleNamespace(begin_with=begun.append, begin_again=lambda: True, best=nearest)
-    reporter = SimpleNamespace(stopped=lambda: False, beyond=lambda _: None)
-    start, _ = diagnose_module._select_as_timed(first, Request(), reporter, limit)  # type: ignore[arg-type]
-    assert start.timing == (OTHERS[0] if taken else None)
-    assert (begun[-1] is nearest) is (above and not complete and steps and told and not explained)
-
-
-@pytest.mark.parametrize(
-    ("effect", "told", "time", "gap", "taken"),
-    [
-        ("armature_inductance", True, True, 1.09, True),
-        ("armature_inductance", True, True, 1.11, False),
-        ("armature_inductance", False, True, 1.0, False),
-        ("armature_inductance", True, False, 1.0, False),  # the time limit is reached, and said
-        ("transport_delay", True, True, 1.0, False),  # which is another word for a timing
-    ],
-)
-def test_an_inductance_that_was_found_is_asked_for_the_timing(
-    monkeypatch: pytest.MonkeyPatch, effect: str, told: bool, time: bool, gap: float, taken: bool
-) -> None:
-    gaps = iter([1.0, gap])
-
-    def select(*_: Any) -> Any:
-        held = SimpleNamespace(gap=next(gaps))
-        model = SimpleNamespace(held=held, above_floor=False, complete=True, effects=(effect,))
-        return diagnose_module._Selected(SimpleNamespace(model=model), (), finished=True)  # type: ignore[arg-type]
-
-    first = SimpleNamespace(selection=None, timing=None)
-    again = SimpleNamespace(selection=None, timing=OTHERS[0])
-    look: Callable[..., Any] = lambda *_, lagging=False: OTHERS[0] if lagging and told else None  # noqa: E731
-    begin: Callable[..., Any] = lambda one, timing, *_: again if timing else first  # noqa: E731
-    monkeypatch.setattr(diagnose_module, "find_timing_beside", look)
-    monkeypatch.setattr(diagnose_module, "_select_in_time", select)
-    monkeypatch.setattr(diagnose_module, "begin_as_timed", begin)
-    limit = SimpleNamespace(begin_with=lambda _: None, begin_again=lambda: time, best=None)
-    reporter = SimpleNamespace(stopped=lambda: False, beyond=lambda _: None)
-    start, selected = diagnose_module._select_as_timed(first, Request(), reporter, limit)  # type: ignore[arg-type]
-    assert start.timing == (OTHERS[0] if taken else None)
-    assert selected.finished is time
 
 
 def test_what_was_said_is_believed() -> None:

@@ -4,9 +4,9 @@ import pytest
 from stub_models import stub_model, stub_test, with_effects
 from stub_selections import selection_of, step_of
 
-from motor_identification import diagnose as module
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.evidence import static_evidence
+from motor_identification.diagnosis.selection import whole_selection as module
 from motor_identification.progress import ProgressReporter
 
 SILENT = ProgressReporter(lambda stage: None, lambda: False)
@@ -27,7 +27,7 @@ def test_a_model_of_the_torque_alone_is_not_the_result(
     monkeypatch.setattr(module, "retry_with_another_first", lambda selection, reporter: start)
     monkeypatch.setattr(module, "select_beside_torque", lambda *rest: start)
     monkeypatch.setattr(module, "drop_undetermined", lambda selection, reporter: (ended, ("coast_drive",)))
-    assert module._select(start, SILENT) == (start if begun else ended, ("coast_drive",))
+    assert module.select(start, SILENT) == (start if begun else ended, ("coast_drive",))
 
 
 @pytest.mark.parametrize(
@@ -56,5 +56,5 @@ def test_what_a_torque_adds_to_does_not_take_away_what_is_told_without_one(
     untold = ("coulomb_friction", "quadratic_drag")
     monkeypatch.setattr(module, "find_untold", lambda model: untold if model.effects == untold else ())
     monkeypatch.setattr(static_evidence, "find_untold", lambda model: untold if model.effects == untold else ())
-    chosen, names = module._select(start, SILENT)
+    chosen, names = module.select(start, SILENT)
     assert (chosen, names) == ((plain, ()) if found == "plain" else (start, untold))
