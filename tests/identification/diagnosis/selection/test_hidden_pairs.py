@@ -5,7 +5,7 @@ from math import sqrt
 
 import numpy as np
 import pytest
-from stub_models import stub_held, stub_model, stub_test, with_effects
+from stub_models import LASTING_FLOOR, stub_held, stub_model, stub_test, with_effects
 from stub_selections import selection_of, step_of
 
 from motor_identification.diagnosis import thresholds
@@ -64,6 +64,31 @@ def test_what_another_comes_with_is_tried_with_that_however_unlikely_alone(
     found = find_pair(selection_of(before), [first], SILENT)
     assert asked == tried
     assert [step.found.effect for step in found] == ([effect, *tried] if tried else [])
+
+
+@pytest.mark.parametrize(
+    ("gap", "times", "left", "found"),
+    [
+        (1.2, ABOVE, BELOW, True),
+        (1.2, BELOW, BELOW, False),  # nothing lasts
+        (1.2, ABOVE, ABOVE, False),  # and still does: a torque, perhaps
+        (5.0, ABOVE, ABOVE, True),  # where more is left than counts hide, whatever lasts
+    ],
+)
+def test_a_gap_that_coarse_counts_hide_from_row_to_row_is_asked_for_a_pair(
+    monkeypatch: pytest.MonkeyPatch, gap: float, times: float, left: float, found: bool
+) -> None:
+    """A friction and a limit of the voltage, in speeds of 3.4 counts a row at most: 2.2 times the floor lasted."""
+    lasting = thresholds.LASTING_GAP * LASTING_FLOOR
+    before = stub_model(gap, min(times * lasting, gap))
+    first = stub_test("coulomb_friction", before, gap, 20.0)
+    second = stub_test("voltage_limit", first.model, 1.0, 20.0)
+    second = replace(second, model=stub_model(min(gap, 1.2), left * lasting, 40.0))
+    monkeypatch.setattr(hidden_pairs, "try_effects", lambda *rest: [second])
+    monkeypatch.setattr(hidden_pairs, "choose_finding", lambda tests: tests[0])
+    selection = selection_of(before)
+    pair = find_pair(selection, [first], SILENT) if may_hide_pair(selection) else []
+    assert bool(pair) is found
 
 
 def test_what_is_likely_alone_is_no_compromise() -> None:
