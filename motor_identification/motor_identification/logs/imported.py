@@ -3,8 +3,8 @@
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from motor_identification.logs.columns.direction import join_two_ways
 from motor_identification.logs.columns.guess import guess_forms
+from motor_identification.logs.columns.motion.direction import join_two_ways
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.csv.graph_export import name_plots
 from motor_identification.logs.csv.mending import mend_table, take_off_units

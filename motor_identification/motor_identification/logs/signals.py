@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_identification.logs.columns.direction import is_backward
+from motor_identification.logs.columns.motion.direction import is_backward
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import CsvForm, time_unit_size
 from motor_model.errors import RecordingError

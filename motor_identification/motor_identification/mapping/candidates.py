@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from motor_identification.logs.columns.heading import read_heading
-from motor_identification.logs.columns.movement import guess_kind
+from motor_identification.logs.columns.motion.movement import guess_kind
 from motor_identification.logs.columns.vocabulary import MOVES, Quantity
 from motor_identification.logs.form import Kind
 from motor_identification.logs.signals import Floats

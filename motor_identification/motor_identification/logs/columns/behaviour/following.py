@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_identification.logs.columns.movement import guess_kind
+from motor_identification.logs.columns.motion.movement import guess_kind
 from motor_identification.logs.correlation import correlate
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import Kind

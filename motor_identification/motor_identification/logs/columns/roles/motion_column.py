@@ -7,8 +7,8 @@ import numpy as np
 from motor_identification.logs.columns.behaviour.position import find_position
 from motor_identification.logs.columns.drive import drives
 from motor_identification.logs.columns.heading import Heading, read_heading
+from motor_identification.logs.columns.motion.speed_beside import is_summed_up
 from motor_identification.logs.columns.notes import ask_motion, lack_motion, miss_motion
-from motor_identification.logs.columns.speed_beside import is_summed_up
 from motor_identification.logs.columns.vocabulary import (
     BODIES,
     FILTERED,

@@ -21,6 +21,7 @@ from motor_identification.logs.columns.behaviour.second_reading import (
 from motor_identification.logs.columns.clock import find_clock, read_clock, runs_forward, since_1970
 from motor_identification.logs.columns.drive import drives, leave_out_idle_efforts
 from motor_identification.logs.columns.heading import Heading, read_heading, words_besides
+from motor_identification.logs.columns.motion.speed_beside import find_driven_speed, is_summed_up
 from motor_identification.logs.columns.names.quantity import may_number_rows
 from motor_identification.logs.columns.roles.candidates import is_numeric
 from motor_identification.logs.columns.roles.drive_column import find_drive_column, find_supply_column
@@ -28,7 +29,6 @@ from motor_identification.logs.columns.roles.motion_column import find_motion_co
 from motor_identification.logs.columns.roles.structs import keep_struct, times_of_struct
 from motor_identification.logs.columns.roles.without_names import pair_by_behaviour, pair_channels
 from motor_identification.logs.columns.said import Pair, Said
-from motor_identification.logs.columns.speed_beside import find_driven_speed, is_summed_up
 from motor_identification.logs.columns.vocabulary import MOVES, Quantity
 from motor_identification.logs.correlation import correlate
 from motor_identification.logs.csv.table import Table

@@ -7,11 +7,11 @@ import numpy as np
 from motor_identification.logs.columns.behaviour.following import follows
 from motor_identification.logs.columns.behaviour.position import find_position
 from motor_identification.logs.columns.heading import Heading
-from motor_identification.logs.columns.movement import is_encoders_angle
+from motor_identification.logs.columns.motion.movement import is_encoders_angle
+from motor_identification.logs.columns.motion.speed_beside import FEWEST_CHANGES
 from motor_identification.logs.columns.notes import ask_drive, miss_drive, miss_motion
 from motor_identification.logs.columns.roles.candidates import list_unnamed
 from motor_identification.logs.columns.said import Pair
-from motor_identification.logs.columns.speed_beside import FEWEST_CHANGES
 from motor_identification.logs.columns.vocabulary import MOVES, Quantity
 from motor_identification.logs.csv.table import Table
 

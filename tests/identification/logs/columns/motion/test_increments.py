@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from motor_identification.logs.columns.increments import count_anew
+from motor_identification.logs.columns.motion.increments import count_anew
 from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.csv.table import Table

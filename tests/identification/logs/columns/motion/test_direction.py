@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from motor_identification.logs.columns.direction import find_direction_column, join_two_ways, read_direction
 from motor_identification.logs.columns.heading import read_heading
+from motor_identification.logs.columns.motion.direction import find_direction_column, join_two_ways, read_direction
 from motor_identification.logs.columns.vocabulary import Quantity
 from motor_identification.logs.csv.table import Table
 

@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_identification.logs.columns.heading import read_heading
-from motor_identification.logs.columns.movement import guess_kind
+from motor_identification.logs.columns.motion.movement import guess_kind
 from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.columns.vocabulary import Quantity, words_of

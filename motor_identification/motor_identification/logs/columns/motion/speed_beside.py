@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from motor_identification.logs.columns.clock import read_clock
 from motor_identification.logs.columns.heading import Heading, read_heading
-from motor_identification.logs.columns.movement import ASKED, Unit, guess_position_unit
+from motor_identification.logs.columns.motion.movement import ASKED, Unit, guess_position_unit
 from motor_identification.logs.columns.names.quantity import AXES
 from motor_identification.logs.columns.said import Pair
 from motor_identification.logs.columns.vocabulary import UNITS, Quantity

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_identification.logs.columns.heading import Heading, read_heading
-from motor_identification.logs.columns.movement import guess_speed_unit
+from motor_identification.logs.columns.motion.movement import guess_speed_unit
 from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.columns.vocabulary import UNITS, Quantity

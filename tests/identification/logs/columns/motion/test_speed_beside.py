@@ -9,8 +9,7 @@ import pytest
 
 from motor_identification.logs.columns.guess import guess_forms
 from motor_identification.logs.columns.heading import read_heading
-from motor_identification.logs.columns.said import Pair, Said
-from motor_identification.logs.columns.speed_beside import (
+from motor_identification.logs.columns.motion.speed_beside import (
     Counted,
     find_counted_position,
     find_driven_speed,
@@ -18,6 +17,7 @@ from motor_identification.logs.columns.speed_beside import (
     tell_position_unit,
     tell_speed_unit,
 )
+from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import Kind
 from motor_model.errors import RecordingError

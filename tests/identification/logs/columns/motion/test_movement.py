@@ -5,7 +5,7 @@ from math import tau
 import numpy as np
 import pytest
 
-from motor_identification.logs.columns.movement import (
+from motor_identification.logs.columns.motion.movement import (
     guess_kind,
     guess_position_unit,
     guess_speed_unit,

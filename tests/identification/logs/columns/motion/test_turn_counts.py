@@ -7,8 +7,8 @@ import pytest
 
 from motor_identification.logs.columns.guess import guess_forms
 from motor_identification.logs.columns.heading import read_heading
+from motor_identification.logs.columns.motion.turn_counts import TurnCounts, find_turn_counts
 from motor_identification.logs.columns.said import Said
-from motor_identification.logs.columns.turn_counts import TurnCounts, find_turn_counts
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import Kind
 from motor_model.errors import RecordingError
