@@ -55,12 +55,16 @@ class Sender:
         lost = steps > 1 and self.period > 0.0 and passed >= CLOSEST * self.period * steps
         return steps if steps == 1 or lost else 0
 
+    def goes_on(self, message: Message) -> bool:
+        """Tell whether this sender would go on with a message, and not begin: it was heard a moment ago."""
+        return not _hear(self.sequence, message, self.count_steps(message)).begins
+
     def hear(self, message: Message, since: float) -> "Sender":
         """Take one more; since [s]: when the controller began."""
         took = message.now - (self.sequence.heard or message.now)
         follows = message.number is not None and message.number == (self.number or 0) + 1
         period = min(took, self.period or took) if follows else self.period
-        sequence, first = _hear(self.sequence, message), self.first
+        sequence, first = _hear(self.sequence, message, self.count_steps(message)), self.first
         if first is not None and _is_young(first, message, since):
             sequence, first = replace(sequence, begins=True), None
         elif first is not None and message.now - first[1] > YOUNG + LISTENED:
@@ -127,14 +131,23 @@ class Senders:
         return replace(self, known=tuple(known))
 
     def _find(self, message: Message) -> Sender | None:
-        """Find whose next message it is; where it may be several's, one of those who are not obeyed."""
+        """Find whose next message it is; where it may be several's, one of those who go on, and are not obeyed.
+
+        A stream that was ended passes the number at which another one fell silent, which begins with its next message.
+        """
         able = [one for one in self.known if one.count_steps(message)]
-        return min(able, key=lambda one: (one.count_steps(message), one.obeyed == self.ended), default=None)
+        return min(able, key=lambda one: self._rank(one, message), default=None)
+
+    def _rank(self, one: Sender, message: Message) -> tuple[bool, int, bool]:
+        return (not one.goes_on(message), one.count_steps(message), one.obeyed == self.ended)
 
 
-def _hear(sequence: Sequence, message: Message) -> Sequence:
-    """Hear a message in a sequence; what those ask for whom nobody keeps apart says nothing of a stream."""
-    return sequence.hear(message.now, message.stops, nan if message.number is None else message.value)
+def _hear(sequence: Sequence, message: Message, steps: int = 1) -> Sequence:
+    """Hear a message in a sequence, so many after the latest: who has sent some that were lost was not silent.
+
+    What those ask for whom nobody keeps apart says nothing of a stream.
+    """
+    return sequence.hear(message.now, message.stops, nan if message.number is None else message.value, steps)
 
 
 def _start(message: Message, begins: bool, unheard: bool = False) -> Sender:

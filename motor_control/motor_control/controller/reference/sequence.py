@@ -52,9 +52,12 @@ class Sequence:
         least = self.silence if isnan(self.single) else self.longest
         return max(least, TIMES * self.latest) if self.even else least
 
-    def hear(self, now: float, stops: bool, value: float = nan) -> "Sequence":
-        """Take one more, which is a speed of 0 or not; value: what a known sender asks for."""
-        silence = inf if self.heard is None else now - self.heard
+    def hear(self, now: float, stops: bool, value: float = nan, steps: int = 1) -> "Sequence":
+        """Take one more, which is a speed of 0 or not; value: what a known sender asks for.
+
+        steps: how many it has sent since the latest that was heard; the lost ones share the time between the two.
+        """
+        silence = inf if self.heard is None else (now - self.heard) / steps
         between = max(self.between, silence) if silence <= self.longest else 0.0
         needed = self.longest if value == self.single else self.silence
         single = value if self.heard is None else nan

@@ -139,6 +139,39 @@ def test_lost_messages_are_the_same_senders() -> None:
     assert not hall.says(402, 4.04)  # more than it can have sent: a stream of somebody else's that was not heard
 
 
+@pytest.mark.parametrize(("count", "heard"), [(200, 50), (200, 199), (1200, 300), (50, 200)])
+@pytest.mark.parametrize("lost", [False, True])
+def test_a_stream_that_was_ended_does_not_begin_at_the_number_at_which_another_fell_silent(
+    count: int, heard: int, lost: bool
+) -> None:
+    """A motor whose plant was restarted started by itself, minutes later: its sender was taken for one long gone."""
+    hall = Hall()
+    assert all(hall.stream(1, 0.0, count, 0.05))
+    begin = 0.05 * count + 20.0
+    assert all(hall.stream(1, begin, heard, 0.05))
+    hall.end()
+    numbers = [k for k in range(heard + 1, heard + 400) if not (lost and k in (count, heard + 7))]
+    assert not any(hall.says(k, begin + 0.05 * (k - 1)) for k in numbers)
+
+
+def test_who_begins_after_a_silence_is_obeyed_beside_a_stream_that_was_ended() -> None:
+    hall = Hall()
+    assert all(hall.stream(1, 0.0, 200, 0.05))  # to number 200, and a silence
+    assert all(hall.stream(1, 10.0, 50, 0.05))
+    hall.end()
+    assert not any(hall.stream(51, 12.5, 20, 0.05))
+    assert hall.says(201, 13.5, 30.0) and not hall.says(71, 13.51)
+
+
+def test_what_was_lost_is_no_silence() -> None:
+    """A controller that is held up for 3 s keeps the latest message of a stream that went on all the time."""
+    hall = Hall()
+    hall.stream(1, 0.0, 50)
+    hall.end()
+    assert not hall.says(201, 4.0) and not hall.says(202, 4.02)
+    assert not hall.says(203, 4.04) and hall.says(204, 6.1)  # which this is
+
+
 def test_topics_are_apart_and_who_is_not_counted_is_one() -> None:
     hall = Hall()
     hall.stream(1, 0.0, 50)
