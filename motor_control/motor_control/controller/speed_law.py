@@ -107,7 +107,9 @@ def _apply_law(config: Config, run: Run, sample: Sample, demand: Demand, hold: b
     sigma, innovation = (nan, nan) if seen is None else (seen.sigma, seen.innovation)
     plugs = terms.saturated and terms.voltage * speed < 0.0 and abs(terms.voltage) < FULL * config.voltage_limit
     limit = config.voltage_limit
-    look = Seen(sample, speed, motion, target.reference, dt, limit, innovation, run.rhythm, run.asked, plugs)
+    look = Seen(
+        sample, speed, motion, target.reference, dt, limit, innovation, run.rhythm, run.asked, plugs, bool(run.caution)
+    )
     fault, trouble = detection.find_fault(config.faults, run.faults, look)
     after = Run(
         config,

@@ -7,6 +7,7 @@ from motor_control.controller.faults import (
     contradiction,
     dropouts,
     few_edges,
+    held_speed,
     hum,
     insensitive_speed,
     irregular_edges,
@@ -41,6 +42,7 @@ class State:
     repeated: repetition.State = repetition.State()
     gaining: acceleration.State = acceleration.State()
     trembling: to_and_fro.State = to_and_fro.State()
+    left: held_speed.State = held_speed.State()
 
 
 def begin(speed: float, before: State | None = None) -> State:
@@ -76,6 +78,7 @@ def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     again, repeated = repetition.check(config, state.repeated, seen)
     quick, gaining = acceleration.check(config, state.gaining, seen)
     nowhere, trembling = to_and_fro.check(config, state.trembling, seen)
+    slower, left = held_speed.check(config, state.left, seen)
     found = (
         quick,
         nowhere,
@@ -94,6 +97,7 @@ def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
         humming,
         same,
         loose,
+        slower,
     )
     return next((one for one in found if one), ""), State(
         stalled,
@@ -113,4 +117,5 @@ def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
         repeated,
         gaining,
         trembling,
+        left,
     )

@@ -63,6 +63,7 @@ class Seen:
     rhythm: Rhythm = Rhythm()
     asked: float = nan  # [V] the answer to the sample before
     plugs: bool = False  # the law asks for all the voltage against the motion that `plug_limit` leaves
+    cautious: bool = False  # the voltage stays near what held the speed, as the controller is held up
 
     @property
     def full(self) -> bool:
