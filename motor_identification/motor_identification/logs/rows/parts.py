@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Container
+from decimal import Decimal
 from itertools import count, groupby
 
 import numpy as np
@@ -69,14 +70,19 @@ def split_at_restarts(signals: Signals, form: CsvForm) -> tuple[Signals, list[st
     lost = _lost_order(signals, back)
     if lost is not None or number >= MOST_RUNS:
         row = int(np.argmax(back)) if lost is None else lost
-        before, here = (signals.time[k] * 1e-9 for k in (row - 1, row))
+        before, here = (_say_seconds(int(signals.time[k])) for k in (row - 1, row))
         raise RecordingError(
-            f"{signals.path}, line {signals.lines[row]}: time runs backwards ({form.time} is {here:.10g} s after "
-            f"{before:.10g}), and does not begin again: name the column of times with --time, or correct that line."
+            f"{signals.path}, line {signals.lines[row]}: time runs backwards ({form.time} is {here} s after "
+            f"{before}), and does not begin again: name the column of times with --time, or correct that line."
         )
     parts = signals.split(back)
     said = f"{form.time} begins again {_times(number)}: {_bags(parts)}{_alone(signals, parts)}."
     return name_by_voltage(parts), [said]
+
+
+def _say_seconds(nanoseconds: int) -> str:
+    """Say a time [ns] in s with all its digits: of seconds since 1970 ten are no more than the whole ones."""
+    return f"{Decimal(nanoseconds).scaleb(-9).normalize():f}"
 
 
 def _lost_order(signals: Signals, back: Bools) -> int | None:

@@ -128,10 +128,17 @@ def _first_jump(signals: Signals, count_of: ToCounts) -> int | None:
         rows, _ = find_fresh_rows(signals.time[run], counts[run].astype(np.float64))
         rows = rows + run.start
         time = (signals.time[rows] - signals.time[run.start]) * 1e-9
-        jump = find_count_jump(time, counts[rows], signals.voltage[rows])
+        jump = find_count_jump(time, _in_least_steps(counts[rows]), signals.voltage[rows])
         if jump is not None:
             return int(rows[jump])
     return None
+
+
+def _in_least_steps(counts: Integers) -> Integers:
+    """Count in the least step of a position, shape (K,): whole degrees are 360 counts a turn, however stored."""
+    steps = np.abs(np.diff(counts))
+    least = int(np.min(steps[steps > 0], initial=np.iinfo(np.int64).max))
+    return np.rint((counts - counts[0]) / least).astype(np.int64) if steps.any() else counts
 
 
 def _times(count: int) -> str:

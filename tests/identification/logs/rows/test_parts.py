@@ -91,6 +91,12 @@ def test_rows_out_of_order_are_no_new_beginning(back: float, refused: bool) -> N
         assert len(split_at_restarts(rows, FORM)[0].runs) == 2
 
 
+def test_times_since_1970_are_said_with_their_digits() -> None:
+    rows = timed(*(1711555227.0 + np.array([0.0, 0.25, 0.5, 0.3125, 1.2])))
+    with pytest.raises(RecordingError, match=r"\(t is 1711555227\.3125 s after 1711555227\.5\)"):
+        split_at_restarts(rows, FORM)
+
+
 @pytest.mark.parametrize(("gap", "runs"), [(GAP - 0.1, 1), (GAP + 0.1, 2)])
 def test_missing_rows_end_a_run(gap: float, runs: int) -> None:
     times = [*np.arange(30), *(29 + gap + np.arange(30))]

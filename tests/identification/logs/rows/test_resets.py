@@ -52,6 +52,21 @@ def test_a_jump_to_somewhere_else_begins_a_run() -> None:
         split_at_resets(rows(with_jumps(9)), form("deg"), whole)
 
 
+@pytest.mark.parametrize("stored", [1.0, 1000.0])
+def test_single_steps_of_a_stalled_motor_are_no_jumps(stored: float) -> None:
+    """A motor against its stop gave way by whole degrees, which are a thousand counts each where angles are stored."""
+    there = np.repeat(np.arange(20) % 2, 30).astype(np.float64)
+
+    def counts(values: Floats) -> Integers:
+        return np.rint(stored * values).astype(np.int64)
+
+    signals, said = split_at_resets(rows(there), form("deg"), counts)
+    assert len(signals.runs) == 1 and said == []
+    there[300:] += 60.0  # which no motor does in a row
+    signals, said = split_at_resets(rows(there), form("deg"), counts)
+    assert len(signals.runs) == 2 and "y jumps once" in said[0]
+
+
 @pytest.mark.parametrize(("first", "left_out"), [(-101.0, True), (-99.0, False)])
 def test_a_first_row_of_something_before_is_left_out(first: float, left_out: bool) -> None:
     """The motor goes 10 a row; the buffer of the program still had the end of the run before."""
