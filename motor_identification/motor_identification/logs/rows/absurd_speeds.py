@@ -1,4 +1,7 @@
-"""Leaves out what a speed's filter begins with: counts of the time before the log, over a step of no length."""
+"""Leaves out what speeds begin with that is of the time before the log.
+
+A filter begins with counts over a step of no length; a program with the latest values of the run before.
+"""
 
 import numpy as np
 
@@ -7,22 +10,44 @@ from motor_identification.logs.signals import Bools, Floats, Signals
 ABSURD = 100.0  # times the speed that nine of ten others do not exceed: no motor starts like that, and no pulse is that
 USUAL = 0.9
 FEWEST = 3  # rows: what is shorter is told as a wrong speed, wherever it stands
+FAR, AFTER = 10.0, 3  # times the speeds of so many rows after it, and the steps of their drive, is a first one
 MOST = 0.2  # of the rows of a run: more of them are no accident
 
 
 def drop_absurd_beginnings(signals: Signals) -> tuple[Signals, list[str]]:
     """Leave out the rows with which runs of speeds begin that are far beyond all others; and a finding that says so."""
+    stale = np.zeros(len(signals), np.bool_)
+    for run in signals.runs.values():
+        stale[run.start] = is_of_run_before(signals.motion[run], signals.voltage[run])
+    signals, said = signals.only(~stale), []
+    if number := int(stale.sum()):
+        rows = "the first row" if number == 1 else f"{number} first rows"
+        said.append(f"Left out: {rows}, with the speed and the drive of a run before, as the motor stands right after.")
     keep = np.ones(len(signals), np.bool_)
     for run in signals.runs.values():
         keep[run] = ~mark_absurd_beginning(signals.motion[run])
     if keep.all():
-        return signals, []
+        return signals, said
     largest = float(np.max(np.abs(signals.motion[~keep])))
     usual = float(np.max(np.abs(signals.motion[keep])))
     return signals.only(keep), [
+        *said,
         f"Left out: the first {int((~keep).sum())} rows, whose speeds are up to {largest:.3g} where all others are up "
-        f"to {usual:.3g}, as of a filter that began with garbage."
+        f"to {usual:.3g}, as of a filter that began with garbage.",
     ]
+
+
+def is_of_run_before(speed: Floats, voltage: Floats) -> bool:
+    """Whether the first row, of speeds and drives of shape (K,), is the latest of a run before.
+
+    The motor stands right after it, and moves off under a drive that goes on from elsewhere. Measured: of a sine that
+    rose from 0, whose first row was the end of the one before: its voltages seemed to have held until their rows.
+    """
+    if len(speed) <= AFTER + 1 or not np.any(speed[1:]):
+        return False
+    stands = abs(float(speed[0])) > FAR * float(np.max(np.abs(speed[1 : AFTER + 1])))
+    steps = np.abs(np.diff(voltage[: AFTER + 2]))
+    return stands and float(steps[0]) > FAR * float(np.max(steps[1:]))
 
 
 def mark_absurd_beginning(speed: Floats) -> Bools:
