@@ -8,6 +8,7 @@ The later voltage is taken only if nothing is late by the earlier one, and the m
 and late by less than half a row: a reading that is taken by mistake would hide a row of dead time.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import tau
 
@@ -25,6 +26,7 @@ from motor_identification.recording import Recording
 from motor_identification.sensor.speed_sensor import find_counts
 from motor_identification.timing.shaped_fit import BEGIN, ITERATIONS, TOLERANCE, Shaper
 from motor_identification.timing.timing import ASSUMED, LEAST_DELAY, OTHERS, UNTIL, Timing, is_open, is_voltage_open
+from motor_model.effects import SPEC_BY_NAME
 
 # Of log likelihood, in all and a row, which the later reading has to be worth. Measured in some hundred simulated logs,
 # written either way, with nothing late in them: 20 to 1,100 (0.015 to 0.5 a row) where voltages held until their rows
@@ -79,22 +81,23 @@ def held_until(shaper: Shaper) -> bool:
     return later.delay < MOST_DELAY and gain > max(LEAST_GAIN, LEAST_GAIN_OF_ROW * count_intervals(first))
 
 
-def describe_untold(estimate: Estimate, error: float) -> list[str]:
-    """Say what ka would be by another timing of the rows, where nobody said it and the log does not tell.
+def describe_untold(estimate: Estimate, errors: Mapping[str, float]) -> list[str]:
+    """Say what ka and a dead time would be by another timing of the rows, where nobody said it, nor does the log.
 
     Of counts, if voltages held until their rows; of speeds that are none, if they are of their rows' own instants.
-    error: the standard error of ka. Nothing where it is much the same.
+    errors: the standard errors by parameters' names. Nothing where they are much the same.
     """
     problem = estimate.problem
     imported = all(one.info.source == "import" for one in problem.recordings)
-    if not imported or problem.sample_period < MATTERS * estimate.parameters.time_constant:
+    late = "delay" in errors
+    if not imported or (problem.sample_period < MATTERS * estimate.parameters.time_constant and not late):
         return []
     if all(map(is_voltage_open, problem.recordings)):
-        return _compare(estimate, _read_later(estimate), error, OF_VOLTAGES)
+        return _compare(estimate, _read_later(estimate), errors, OF_VOLTAGES)
     if all(is_open(one) and not _is_counted(one) for one in problem.recordings):
         row = OTHERS[0].window * problem.sample_period
         here, there = (_read_rows(estimate, timing) for timing in (ASSUMED, OTHERS[0]))
-        return _compare(here, there, error, OF_SPEEDS.replace("ROW", f"{row:.3g}"))
+        return _compare(here, there, errors, OF_SPEEDS.replace("ROW", f"{row:.3g}"))
     return []
 
 
@@ -104,15 +107,24 @@ def _is_counted(recording: Recording) -> bool:
     return step * recording.sample_period * MOST_COUNTS > tau
 
 
-def _compare(estimate: Estimate, other: Estimate, error: float, text: str) -> list[str]:
-    """Say ka by two readings, the other and this, where it differs and the other is as likely."""
+def _compare(estimate: Estimate, other: Estimate, errors: Mapping[str, float], text: str) -> list[str]:
+    """Say what two readings give, the other and this, where that differs and the other is as likely."""
     here, there = _fit_beside_torque(estimate), _fit_beside_torque(other)
-    ka, of_other = (reading.estimate.parameters.value("ka") for reading in (here, there))
-    alike = abs(of_other - ka) <= max(MATTERS * ka, SURE_ERRORS * error)
-    if alike or there.likelihood < here.likelihood - AS_LIKELY:
+    if there.likelihood < here.likelihood - AS_LIKELY:
         return []
+    late = "delay" in errors
+    pairs = {name: _values(name, here, there) for name in ("ka", "delay")[: 1 + late]}
+    said = [
+        f"{name} would be {theirs:.3g} instead of {ours:.3g} {SPEC_BY_NAME[name].unit}"
+        for name, (ours, theirs) in pairs.items()
+        if abs(theirs - ours) > max(MATTERS * ours, SURE_ERRORS * errors[name])
+    ]
     told = LIKELIER if there.likelihood > here.likelihood + AS_LIKELY else UNTOLD
-    return [f"{text.format(told)} ka would be {of_other:.3g} instead of {ka:.3g} V·s²/rad."]
+    return [f"{text.format(told)} {' and '.join(said)}."] if said else []
+
+
+def _values(name: str, here: _Reading, there: _Reading) -> tuple[float, float]:
+    return here.estimate.parameters.value(name), there.estimate.parameters.value(name)
 
 
 def count_intervals(estimate: Estimate) -> int:

@@ -48,7 +48,7 @@ def summarise_fit(
     open_ones = tuple(name for name in sure.not_identifiable if name not in nowhere)
     alike = {effect: rivals for effect, rivals in alike.items() if effect not in absent}
     errors = unknowns.value_errors(theta, sure.errors)
-    cost, untold = fit.estimate.cost, describe_untold(fit.estimate, errors["ka"])
+    cost, untold = fit.estimate.cost, describe_untold(fit.estimate, errors)
     return Fit(
         parameters=fit.estimate.parameters,
         standard_errors={name: nan if name in noise else error for name, error in errors.items()},

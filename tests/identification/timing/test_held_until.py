@@ -215,7 +215,7 @@ def test_what_inertia_would_be_by_the_other_voltages_is_said_where_nothing_tells
     other = SimpleNamespace(parameters=SimpleNamespace(value=lambda name: {"ka": times * ka}[name]))
     readings = iter([_Reading(estimate, NONE, 0.0), _Reading(cast(Estimate, other), NONE, gain)])
     monkeypatch.setattr(module, "_fit_beside_torque", lambda one: next(readings))
-    notes = describe_untold(estimate, error * ka)
+    notes = describe_untold(estimate, {"ka": error * ka})
     assert bool(notes) is said and all(("this log does not tell" in note) is (gain <= 10.0) for note in notes)
 
 
@@ -249,11 +249,26 @@ def test_a_quick_motor_has_two_inertias_by_when_its_speeds_were_made(digits: int
         assert float(notes[0].split("ka would be ")[1].split()[0]) == pytest.approx(fast["ka"], rel=0.05)
 
 
-def make_converted(*drive: Floats, **motor: float) -> Recording:
+@pytest.mark.parametrize(("delay", "said"), [(0.012, True), (0.0, False)])
+def test_a_dead_time_is_another_by_when_speeds_were_made(delay: float, said: bool) -> None:
+    """It was half a row off, and 190 of its standard errors, of a slow motor's tachogenerator; the log cannot tell."""
+    motor = {"ka": 0.01, "delay": delay} if delay else {"ka": 0.01}
+    logged = make_converted(*profiles.reversals(6.0), sigma=0.1, **motor)
+    fit = identify([logged], Request(("transport_delay",) if delay else ()))
+    notes = [note for note in fit.notes if "delay would be" in note]
+    assert bool(notes) is said
+    if said:
+        theirs, ours = (float(notes[0].split(word)[1].split()[0]) for word in ("delay would be ", "instead of "))
+        assert theirs == pytest.approx(delay, abs=5e-4)
+        assert ours == pytest.approx(fit.parameters.value("delay"), rel=1e-2)
+        assert ours == pytest.approx(delay - 0.5 * ROW, abs=5e-4)
+
+
+def make_converted(*drive: Floats, sigma: float = 1.0, **motor: float) -> Recording:
     """Speeds of a converter, of rows that are as long as a quick motor's time constant."""
     exact = {"edges": 960, "sample_rate": 1.0 / ROW, "single_channel": False}
     recording, truth = record({"kv": 0.05, "ka": 0.001} | motor, *drive, **exact)  # type: ignore[arg-type]
-    noise = np.random.default_rng(0).standard_normal(len(truth.speed))
+    noise = sigma * np.random.default_rng(0).standard_normal(len(truth.speed))
     return assume(replace(without_count(as_speed(recording)), speed=truth.speed + noise))
 
 
