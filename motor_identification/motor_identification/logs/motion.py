@@ -220,12 +220,19 @@ def _confirm_edges(form: CsvForm, signals: Signals, edges: int, count: float, wi
     if are_over_slots(signals.motion, count * window):
         return 0, [TIMED.format(form.motion)]
     smoothed = are_smoothed(signals.motion, signals.voltage, count)
+    smoothed |= form.unit == "count/s" and _are_finer(signals.motion, count)  # whose unit is not the encoder's to say
     if not smoothed or form.unit != "count/s":
         _check_steps(form, signals.motion, edges, count)
     if not smoothed:
         return edges, []
     said = f"Speeds in {form.motion} lie between whole counts of {edges} per revolution: they were smoothed, or timed."
     return 0, [said]
+
+
+def _are_finer(values: Floats, count: float) -> bool:
+    """Whether speeds lie on a grid that is far finer than one count in a row."""
+    step = find_lattice(values) if len(np.unique(values)) >= LEAST_LEVELS else 0.0
+    return 0.0 < step < count / _FAR
 
 
 def _check_steps(form: CsvForm, values: Floats, edges: int, count: float) -> None:

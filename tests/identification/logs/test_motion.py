@@ -208,6 +208,17 @@ def test_digits_of_speeds_that_were_smoothed_are_no_mistaken_unit(unit: float, d
         assert motion.info.edges_per_revolution == 0 and motion.speed == pytest.approx(values * unit)
 
 
+@pytest.mark.parametrize(("share", "smoothed"), [(1.0 / 128.0, True), (1.0, False)])
+def test_counts_a_second_in_far_finer_steps_are_smoothed_ones(share: float, smoothed: bool) -> None:
+    """A short step in 128ths of a count was refused: leave the counts away, it said, which are its unit's."""
+    count = 1.0 / 0.02
+    values = share * count * np.round(np.linspace(0.0, 9.0, 64) / share)
+    form = replace(SPEED, unit="count/s", edges_per_revolution=200)
+    motion = read(form, values.tolist())
+    assert motion.info.edges_per_revolution == (0 if smoothed else 200)
+    assert any("they were smoothed, or timed" in line for line in motion.findings) is smoothed
+
+
 @pytest.mark.parametrize(
     ("weights", "kept"),
     [
