@@ -25,6 +25,7 @@ from motor_identification.noise.run_gain import (
 
 LEAST_SCATTER = 1e-6  # of the gains to begin with
 ALIKE = 0.03  # of the largest level: runs at one
+EVALUATIONS = 60  # from errors that are known
 ROUNDS, SCATTER_STEPS = 2, 3  # of gains and what else is left in turns; and of the gains' scatter in each
 
 
@@ -44,6 +45,18 @@ def learn_errors_of_runs(
         return agreeing
     gained = log_likelihood(rows, differing, lag) - log_likelihood(rows, agreeing, lag)
     return differing if gained > PRICE else agreeing
+
+
+def learn_own_gains(rows: Sequence[ErrorData], lag: Lag, guess: ErrorModel) -> ErrorModel | None:
+    """Find the error model of runs each of which has a gain of its own, as likely or not as that they agree.
+
+    lag: the motor. guess: errors of runs that agree. None where runs are few, scatter by more than any supply, or
+    follow their levels. A slow torque and a gain of each run are two words for the same where runs have one level each.
+    """
+    if len(rows) < FEWEST_RUNS:
+        return None
+    differing = _learn_with_gains(rows, lag, guess, EVALUATIONS)
+    return None if differing.gain > MOST_SCATTER or _follow_levels(rows, differing, lag) else differing
 
 
 def _follow_levels(rows: Sequence[ErrorData], model: ErrorModel, lag: Lag) -> bool:

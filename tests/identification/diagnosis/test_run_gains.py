@@ -10,6 +10,7 @@ from plant import record
 from stub_selections import step_of
 
 from motor_identification.diagnose import diagnose
+from motor_identification.diagnosis import candidate_model
 from motor_identification.diagnosis.candidate_fit import judge_beside_torque, validate_model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.detectability import find_undetectable
@@ -18,6 +19,7 @@ from motor_identification.diagnosis.run_gains import find_gap_less_gains, gains_
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.problem import make_problem
+from motor_identification.noise.error_model import ErrorModel
 from motor_identification.recording import Recording, check
 from motor_identification.reporting.diagnosis_text import summarize_diagnosis
 from motor_identification.reporting.html.limits import list_limits
@@ -77,6 +79,22 @@ def test_a_gap_is_measured_without_what_the_gains_add() -> None:
     assert find_gap_less_gains(model) < 0.3 * model.held.gap
     assert find_gap_less_gains(model) < 1.3 * model.sensor_floor
     assert 0.7 < model.held.gap / model.noise_floor < 1.4  # of which the gains are the most
+
+
+def list_certain(recordings: tuple[Recording, ...]) -> list[str]:
+    """What is predicted of what the true motor leaves, beside a slow torque."""
+    model = validate_model(make_hold_out(recordings, ()), true_motor(recordings))
+    model = replace(model, learned=ErrorModel(0.02, 0.0, 0.05, 0.3))
+    return [one.variable for one in model.structure if one.certain]
+
+
+def test_what_a_run_alone_has_is_no_structure(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One of ten steps of a real motor ran 4 % slower; a curve over the voltage tells runs of one level by that."""
+    slower, rubbing = runs(0.0, (1.0, 1.0, 0.95, *[1.0] * 5)), runs(0.8, (1.0,) * 8)
+    assert list_certain(slower) == []
+    assert "voltage" in list_certain(rubbing)  # of which it is a curve
+    monkeypatch.setattr(candidate_model, "learn_own_gains", lambda *_: None)
+    assert "voltage" in list_certain(slower)
 
 
 @pytest.mark.parametrize(("scatter", "hidden"), [(0.003, False), (0.05, True)])

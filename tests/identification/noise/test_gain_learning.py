@@ -9,7 +9,7 @@ from motor_identification.measurement.intervals import index_intervals
 from motor_identification.noise.error_data import ErrorData, log_likelihood, make_error_data, make_whitening
 from motor_identification.noise.error_learning import learn_error_model
 from motor_identification.noise.error_model import ErrorModel, Lag
-from motor_identification.noise.gain_learning import learn_errors_of_runs
+from motor_identification.noise.gain_learning import learn_errors_of_runs, learn_own_gains
 from motor_identification.noise.run_gain import FEWEST_RUNS, MOST_SCATTER
 
 LAG = Lag(12.0, 0.0055)
@@ -80,3 +80,15 @@ def test_gains_that_go_with_the_level_of_each_run_are_a_curve_and_no_supply() ->
     assert learn_errors_of_runs(leave(gains), LAG).gain == pytest.approx(np.std(gains), rel=0.1)
     mixed = np.array([3, 0, 6, 2, 7, 1, 5, 4])
     assert learn_errors_of_runs(leave(gains[mixed], levels), LAG).gain == pytest.approx(np.std(gains), rel=0.1)
+
+
+def test_runs_have_gains_of_their_own_however_likely_a_slow_torque_is() -> None:
+    """Of runs at one level each both are words for the same; not where gains follow the levels, or are no supply's."""
+    torque = ErrorModel(SHARE, 0.0, 0.1, 0.5)
+    own = learn_own_gains(leave(GAINS), LAG, torque)
+    assert own is not None and own.gain == pytest.approx(np.std(GAINS - 1.0), rel=0.15)
+    assert learn_own_gains(leave(GAINS[: FEWEST_RUNS - 1]), LAG, torque) is None
+    rising, levels = 1.0 + 0.03 * np.linspace(-1.3, 1.3, 8), np.linspace(0.3, 1.0, 8)
+    assert learn_own_gains(leave(rising, levels), LAG, torque) is None
+    for size, supply in ((0.13, True), (0.2, False)):
+        assert (learn_own_gains(leave(1.0 + size * (GAINS - 1.0) / 0.03), LAG, torque) is not None) is supply
