@@ -49,6 +49,7 @@ class State:
     latched: str = ""  # why the motor stays at 0 V until `reset`
     demand: Demand | None = None  # the latest one, as long as it is obeyed
     joint_heard: float | None = None  # when the latest joint command came
+    joints: Senders = Senders()  # of motor/joint_command, obeyed or not
     joint_senders: str = ""  # who publishes motor/joint_command, where they are several
     players: str = ""  # of recordings, who publish demands
     refused: str = ""  # why a demand was not taken
@@ -121,14 +122,18 @@ def meet_players(state: State, players: str) -> State:
 def command_joint(config: Config, state: State, demand: Demand | str, now: float, number: int | None = None) -> State:
     """Take one command of a stream that is meant for this motor; a text says why it cannot be obeyed: 0 V.
 
-    A stream begins with 0, or after a silence. One that goes on through a stop, or was there before the controller, has
-    not seen it, and nobody knows what it would do. number: of its publisher's messages; None: not counted.
+    A stream begins with 0, or after a silence that is long beside the time between its commands. One that goes on
+    through a stop, or was there before the controller, has not seen it, and nobody knows what it would do. number: of
+    its publisher's messages; None: not counted.
     """
+    stops = isinstance(demand, Demand) and demand.value == 0.0
+    message = Message(Source.JOINT.value, number, nan, stops, now)
+    state = replace(state, joints=state.joints.hear(message, state.since, -inf))
     heard, silence = state.joint_heard, config.joint_timeout
     if heard is None:
         heard = max(state.since, state.introduced)
         silence = max(silence, FIRST_JOINT) if (number or 0) > 1 else silence
-    silent = config.joint_timeout > 0.0 and now - heard > silence
+    silent = config.joint_timeout > 0.0 and now - heard > silence and not state.joints.bars(False)
     drives = state.demand is not None and state.demand.source is Source.JOINT
     state = replace(state, joint_heard=now)
     if state.players:
@@ -140,8 +145,11 @@ def command_joint(config: Config, state: State, demand: Demand | str, now: float
     if isinstance(demand, str):
         return replace(drop(state, demand) if drives else state, refused=demand, refused_at=now)
     if state.demand is None and not (silent or demand.value == 0.0):
-        return replace(state, refused=BEGIN_JOINT.format(config.joint_timeout), refused_at=now)
-    return _take(state, demand, silent or demand.value == 0.0, now)
+        needed = max(config.joint_timeout, round(state.joints.latest.sequence.needed, 1))
+        return replace(state, refused=BEGIN_JOINT.format(needed), refused_at=now)
+    after = _take(state, demand, silent or demand.value == 0.0, now)
+    taken = after.demand is not None and not after.refused
+    return replace(after, joints=after.joints.obey()) if taken else after
 
 
 def _take(state: State, demand: Demand, begins: bool, now: float) -> State:
@@ -190,10 +198,12 @@ def reset(state: State, now: float) -> tuple[str, State]:
 
 def drop(state: State, why: str) -> State:
     """End what is asked for, and say why."""
-    return replace(state, run=None, demand=None, dropped=why, references=state.references.end())
+    references, joints = state.references.end(), state.joints.end()
+    return replace(state, run=None, demand=None, dropped=why, references=references, joints=joints)
 
 
 def meet_other_plant(state: State, why: str = OTHER_PLANT) -> State:
     """Forget what was asked of a plant that is another one now: edges, limits, all that a reference was for."""
     state = replace(state, motion=None, faults=None, place=None, rhythm=Rhythm())
-    return drop(state, why) if state.demand is not None else state
+    waits = state.demand is None and not (state.references.forgives or state.joints.forgives)
+    return state if waits else drop(state, why)

@@ -66,6 +66,33 @@ def test_a_stream_of_references_does_not_survive_what_ends_one(rate: int, interr
     assert feed(state, [12_005], 60.0)[0].state == RUNNING
 
 
+@pytest.mark.parametrize("interrupt", [restart, start_again, stop_and_reset, let_go])
+@pytest.mark.parametrize("late", [200, 800])  # [ms] after the latest reference: before its time-out, and after it
+def test_a_stream_slower_than_its_time_out_does_not_survive_what_else_ends_one(
+    interrupt: Callable[[State], State], late: int
+) -> None:
+    """At 1 Hz with a `reference_timeout` of 0.5 s it started the motor 0.1 s after it had been released."""
+    config, state, driven = replace(CONFIG, reference_timeout=0.5), State(), 0
+    for time in range(0, 12_000, 5):
+        if time == 4000 + late:
+            state = interrupt(state)
+        output, state = feed(state, [time], 60.0 if time % 1000 == 0 else None, config)
+        assert time < 4000 + late or output.state == DISABLED
+        driven += output.state == RUNNING
+    assert driven > 400  # half of the time, before
+    assert "until they begin again, with 0 or after a silence of 2 s" in state.refused
+    assert feed(state, [13_005], 60.0, config)[0].state == RUNNING
+
+
+def test_a_stream_slower_than_its_time_out_does_not_survive_an_output_that_was_off() -> None:
+    """Its commands never lasted for as long as it takes to tell; it drove at once when `motor/enable` was called."""
+    config, state = replace(CONFIG, reference_timeout=0.5), State()
+    for time in range(0, 12_000, 5):
+        on = not 4200 <= time < 7300
+        output, state = feed(state, [time], 60.0 if time % 1000 == 0 else None, config, on=on)
+        assert time < 7300 or output.state == DISABLED
+
+
 @pytest.mark.parametrize("name", OBSTACLES)
 def test_a_stream_of_references_does_not_survive_being_held_for_long(name: str) -> None:
     """Samples were no numbers for ten minutes, and the motor went on by itself."""

@@ -26,6 +26,7 @@ class Loop:
     def __init__(self, **changes: float | bool) -> None:
         self.config = replace(CONFIG, **changes)  # type: ignore[arg-type]
         self.now, self.voltage, self.state = 100.0, 0.0, controller.State(since=100.0)
+        self.off = False  # the plant applies nothing
 
     def run(self, duration: float, demand: Demand | str | None = None) -> Output:
         """So long [s], with the joint's command before every sample."""
@@ -35,7 +36,7 @@ class Loop:
                 self.state = controller.command_joint(self.config, self.state, demand, self.now)
             sample = Sample(round(self.now * 1e9), 0.0, self.voltage)
             output, self.state = controller.update(self.config, self.state, sample, None, self.now)
-            self.voltage = output.terms.voltage
+            self.voltage = 0.0 if self.off else output.terms.voltage
         return output
 
 
@@ -95,6 +96,38 @@ def test_after_a_stop_a_stream_that_goes_on_is_not_obeyed_until_it_begins_again(
     assert loop.run(DT, JOINT).state == RUNNING
     _, loop.state = controller.release(loop.state, loop.now)
     assert loop.run(1.0, JOINT).state == DISABLED
+
+
+@pytest.mark.parametrize("late", [0.2, 0.8])  # [s] after the latest command: before its time-out, and after it
+@pytest.mark.parametrize("how", ["released", "stopped", "plant", "off"])
+def test_a_stream_slower_than_its_time_out_is_not_obeyed_after_what_else_ends_it(how: str, late: float) -> None:
+    """At 1 Hz it started the motor 0.2 s after `motor/release`, and 0.9 s after its plant had been started again."""
+    loop = Loop()
+    loop.run(0.6)
+    for _ in range(3):
+        assert loop.run(DT, JOINT).state == RUNNING
+        assert loop.run(0.995).state == DISABLED  # by its time-out
+    loop.run(DT, JOINT)
+    loop.run(late)
+    if how == "released":
+        _, loop.state = controller.release(loop.state, loop.now)
+    elif how == "stopped":
+        loop.state = controller.stop(loop.state, "It is blocked.", loop.now)
+        _, loop.state = controller.reset(loop.state, loop.now)
+    elif how == "plant":
+        loop.state = controller.meet_other_plant(loop.state)
+    else:
+        loop.off = True
+        loop.run(1.0 - late)
+        loop.run(DT, JOINT)
+        loop.run(late)
+        loop.off = False
+    loop.run(0.995 - late)
+    for _ in range(4):
+        assert loop.run(DT, JOINT).state == DISABLED and "a silence of 2 s" in loop.state.refused
+        assert loop.run(0.995).state == DISABLED
+    loop.run(1.1)
+    assert loop.run(DT, JOINT).state == RUNNING
 
 
 @pytest.mark.parametrize("why", ["motor/joint_command asks for nan rad/s: send a finite number."])

@@ -6,6 +6,7 @@ Where somebody has just asked for a motion, he knows how the plant is; who goes 
 from motor_control.controller.plant_watch import PlantWatch
 from motor_control.controller.reference.demand import Source
 from motor_control.controller.run import Config
+from motor_control.controller.speed_law import IGNORED_TIME
 from motor_control.controller.state import RESTARTED, State, drop, meet_other_plant
 from motor_model.frozen_record import replace
 
@@ -35,14 +36,24 @@ def drop_old_reference(config: Config, state: State, plant: PlantWatch, now: flo
         return drop(state, RETURNED)
     if state.held is not None and now - state.held > AWAY and not fresh:
         return drop(state, HELD.format(state.held_by))
-    if state.demand.source is Source.JOINT and config.joint_timeout and now - state.referred > config.joint_timeout:
-        return drop(state, SILENT_JOINT.format(config.joint_timeout))
-    if config.reference_timeout and now - state.referred > config.reference_timeout:
-        state = replace(state, references=state.references.forgive())  # what comes now comes after a silence
-        return drop(state, TIMED_OUT.format(config.reference_timeout))
-    if state.run is not None and state.run.ignored > OFF:
+    timed_out = _find_timeout(config, state, now)
+    # what a slow stream asks for never lasts as long as OFF: it is no silence of the sender's that ended it
+    if state.run is not None and state.run.ignored > (IGNORED_TIME if timed_out else OFF):
         return drop(state, WAS_OFF)
-    return state
+    if not timed_out:
+        return state
+    state = replace(state, references=state.references.forgive(), joints=state.joints.forgive())
+    return drop(state, timed_out)
+
+
+def _find_timeout(config: Config, state: State, now: float) -> str:
+    """Find which time of its user's own a demand has outlived, as a sentence; "" if none."""
+    joint = state.demand is not None and state.demand.source is Source.JOINT
+    if joint and config.joint_timeout and now - state.referred > config.joint_timeout:
+        return SILENT_JOINT.format(config.joint_timeout)
+    if config.reference_timeout and now - state.referred > config.reference_timeout:
+        return TIMED_OUT.format(config.reference_timeout)
+    return ""
 
 
 def _stood_still(state: State, plant: PlantWatch) -> bool:

@@ -6,6 +6,9 @@ What ends a reference ends it for everybody who was sending; each of them has to
 A sender whose first message is heard has just begun, and is judged by how long no other such one has come: a command
 in a shell is a new sender each time. One that is first heard later was there before this controller, or began while the
 middleware introduced the two: its pace tells which. Who has been there for long without a word begins with the first.
+
+Where time alone ended a reference, who had been obeyed may go on: he was silent for as long as his user says. His pace
+is known beyond that: whatever else ends a reference bars a stream that is slower than such a time, too.
 """
 
 from dataclasses import dataclass, replace
@@ -41,6 +44,7 @@ class Sender:
     number: int | None  # of the latest message
     sequence: Sequence = Sequence()
     obeyed: int = -1  # how many references had ended when it last began
+    forgiven: int = -1  # how many had, of which the last one ended by its time alone
     first: tuple[int, float] | None = None  # number and time [s] of what was first heard, until its age is known
     period: float = 0.0  # [s] the shortest between two with successive numbers; 0: not known
 
@@ -79,6 +83,8 @@ class Senders:
     ended: int = 0
     known: tuple[Sender, ...] = ()
     firsts: Sequence = Sequence()  # the first messages of senders
+    began: int = -1  # how many references had ended when such a message was last obeyed
+    forgiven: int = -1  # as of a sender, for such messages
 
     def hear(self, message: Message, since: float, introduced: float) -> "Senders":
         """Take a message, whose sender is the last one then.
@@ -92,12 +98,12 @@ class Senders:
             sender = found.hear(message, since)
         elif message.number == 1:
             firsts = firsts.hear(message.now, message.stops)
-            sender = _start(message, firsts.begins)
+            sender = _start(message, firsts.begins or self.forgiven == self.ended)
         else:
             silence = message.now - introduced
             quiet = silence > (LONGEST if message.number is None else LONGEST_OF_ONE)
             sender = _start(message, quiet, unheard=not quiet)
-        return Senders(self.ended, (*others, sender)[-MOST:], firsts)
+        return replace(self, known=(*others, sender)[-MOST:], firsts=firsts)
 
     @property
     def latest(self) -> Sender:
@@ -110,20 +116,31 @@ class Senders:
         Then a sender that begins, or all those whom nobody counts, may ask for something else.
         """
         joins = driven and self.latest.number in (1, None)
-        return not (self.latest.obeyed == self.ended or self.latest.sequence.begins or joins)
+        return not (self._trusts(self.latest) or self.latest.sequence.begins or joins)
 
     def obey(self) -> "Senders":
         """Obey the latest sender until a reference is ended."""
-        return replace(self, known=(*self.known[:-1], replace(self.latest, obeyed=self.ended)))
+        began = self.ended if self.latest.number == 1 else self.began
+        return replace(self, known=(*self.known[:-1], replace(self.latest, obeyed=self.ended)), began=began)
 
     def end(self) -> "Senders":
         """End what everybody asked for."""
         return replace(self, ended=self.ended + 1, known=tuple(replace(one, first=None) for one in self.known))
 
     def forgive(self) -> "Senders":
-        """Let those who are obeyed begin with what they send next: they have been silent for long enough."""
-        known = (_restart(one) if one.obeyed == self.ended else one for one in self.known)
-        return replace(self, known=tuple(known), firsts=Sequence())
+        """Let those who are obeyed go on beyond the next end, which their own silence brings, and no further.
+
+        Their pace stays known.
+        """
+        after = self.ended + 1
+        known = (replace(one, forgiven=after) if self._trusts(one) else one for one in self.known)
+        firsts = after if self.ended in (self.began, self.forgiven) else self.forgiven
+        return replace(self, known=tuple(known), forgiven=firsts)
+
+    @property
+    def forgives(self) -> bool:
+        """Whether somebody may go on, since time alone has ended what he asked for."""
+        return self.forgiven == self.ended or any(one.forgiven == self.ended for one in self.known)
 
     def trust_single(self) -> "Senders":
         """Take a sender that has asked once for no stream: somebody who looks expects the same again."""
@@ -139,7 +156,10 @@ class Senders:
         return min(able, key=lambda one: self._rank(one, message), default=None)
 
     def _rank(self, one: Sender, message: Message) -> tuple[bool, int, bool]:
-        return (not one.goes_on(message), one.count_steps(message), one.obeyed == self.ended)
+        return (not one.goes_on(message), one.count_steps(message), self._trusts(one))
+
+    def _trusts(self, one: Sender) -> bool:
+        return self.ended in (one.obeyed, one.forgiven)
 
 
 def _hear(sequence: Sequence, message: Message, steps: int = 1) -> Sequence:
@@ -156,11 +176,6 @@ def _start(message: Message, begins: bool, unheard: bool = False) -> Sender:
     sequence = replace(_hear(empty, message), begins=begins or message.stops)
     first = (message.number, message.now) if unheard and message.number is not None else None
     return Sender(message.topic, message.number, sequence, first=first)
-
-
-def _restart(sender: Sender) -> Sender:
-    """Let a sender begin with its next message."""
-    return replace(sender, sequence=Sequence(longest=sender.sequence.longest), first=None)
 
 
 def _is_young(first: tuple[int, float], message: Message, since: float) -> bool:

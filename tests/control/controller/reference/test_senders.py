@@ -203,3 +203,31 @@ def test_a_schedule_does_not_survive_what_ends_it(shell: bool) -> None:
     hall.end()
     assert not any(hall.says(1 if shell else 4 + k, 45.0 + 15.0 * k) for k in range(5))
     assert hall.says(1 if shell else 9, 112.0)  # a hand
+
+
+# A loop's commands are a new sender each; and how many messages come before something else ends what they ask for.
+@pytest.mark.parametrize(("shell", "again"), [(False, 1), (False, 4), (True, 4)])
+def test_a_stream_slower_than_its_own_time_out_goes_on_beyond_that_and_beyond_no_other_end(
+    shell: bool, again: int
+) -> None:
+    """At 1 Hz, with a time-out of 0.5 s, it started the motor 0.1 s after `motor/release`."""
+    hall = Hall()
+    for k in range(again):
+        assert hall.says(1 if shell else 1 + k, 1.0 * k)
+        hall.senders = hall.senders.forgive()
+        hall.end()  # by the time-out
+    hall.end()  # by somebody
+    assert not any(hall.says(1 if shell else 1 + again + k, 1.0 * (again + k)) for k in range(20))
+    assert hall.says(1 if shell else 21 + again, again + 19.0 + LONGEST_OF_ONE + 0.1)
+
+
+def test_a_stream_that_was_ended_is_not_forgiven_with_another() -> None:
+    """Nor a loop of a shell that was."""
+    hall = Hall()
+    hall.stream(1, 0.0, 5, 1.0, 60.0)
+    hall.end()
+    assert hall.says(1, 4.1, 30.0, "position")
+    hall.senders = hall.senders.forgive()
+    assert hall.senders.forgive().forgives is False
+    hall.end()
+    assert hall.senders.forgives and not hall.says(6, 5.0) and hall.says(2, 5.1, 30.0, "position")
