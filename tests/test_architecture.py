@@ -50,8 +50,8 @@ BAGS = re.compile(r"motor_identification/bag/((mcap|fields)/)?\w+\.py$")
 # Inside a package too: its rooms (folders, or files beside them) from the ground up; each may import those before it.
 ROOMS = {
     "motor_model": (
-        "printable errors regular_file compiled frozen_record gearing program yaml_file given text_table effect "
-        "effects sample parameters physical model_file excitation dynamics sensing simulate warm_up"
+        "printable errors regular_file compiled frozen_record streams gearing program yaml_file given text_table "
+        "effect effects sample parameters physical model_file excitation dynamics sensing simulate warm_up"
     ),
     "motor_control": (
         "checks filter controller announcements tuning configuration parameters warm_up preparation settings "

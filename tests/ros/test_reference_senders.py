@@ -8,7 +8,7 @@ from controller_bench import PATIENT, FakePlant
 from std_msgs.msg import Float64
 from workbench import end, start
 
-from motor_control.controller.reference.senders import SLACK, YOUNG
+from motor_model.streams.senders import SLACK, YOUNG
 from motor_msgs.msg import ControlState
 from motor_ros import qos
 

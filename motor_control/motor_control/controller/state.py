@@ -12,14 +12,14 @@ from motor_control.controller.motion import Motion
 from motor_control.controller.plant_watch import PlantWatch
 from motor_control.controller.reference import position_law
 from motor_control.controller.reference.demand import Demand, Kind, Source
-from motor_control.controller.reference.senders import Message, Senders
-from motor_control.controller.reference.sequence import GOES_ON, LONGEST
 from motor_control.controller.run import Config, Run
 from motor_control.controller.timing.latency import LatencyState
 from motor_control.controller.timing.timekeeping import Timekeeping
 from motor_model.frozen_record import replace
 from motor_model.sensing.mains_rhythm import Rhythm
 from motor_model.sensing.repeated_stops import RepeatedStops
+from motor_model.streams.senders import Message, Senders
+from motor_model.streams.sequence import GOES_ON, LONGEST
 
 RELEASED = "The motor was released."
 CLEARED = "The stop was cleared."

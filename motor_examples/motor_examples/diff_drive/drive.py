@@ -15,8 +15,8 @@ is added to its reference. So what a start or a stop has left, the next motion m
 although its motors differ. At rest nothing is added: friction would hold a wheel short of a slot's way, and let go.
 A velocity counts from when it comes, not from the next step: 20 ms at 45°/s are nearly a degree.
 
-After a trouble, velocities have to begin again, with 0 or after a silence as long as the timeout: who went on sending
-through it has not seen it.
+After a trouble, velocities have to begin again, each sender's for themselves (`motor_model.streams`), with 0 or after a
+silence as long as the timeout, and long beside the time between them: who went on sending through it has not seen it.
 """
 
 from dataclasses import dataclass, replace
@@ -34,12 +34,15 @@ from motor_examples.diff_drive.kinematics import (
     wheel_speeds,
 )
 from motor_examples.diff_drive.wheel import Wheel, awaits_answer, find_trouble
+from motor_model.streams.senders import Message, Senders
 
 MOST_BEHIND = 1.0  # [rad] that a wheel makes up for: one that slipped or was blocked does not race afterwards
 LONGEST_STEP = 0.1  # [s] of the limits' ramp: after a pause of the computer the robot does not jump
 LONGEST_PAUSE = 1.0  # [s] without a step, after which a robot that goes on by itself is a surprise
 STANDING = 0.3  # [s] at 0 rad/s and reported as such, before the motors are let go
 PATIENCE = 2.0  # [s] at 0 rad/s after which they are let go whatever is reported
+TOLD = 0.5  # [s] for which it is said that a velocity was not obeyed
+APART = 1e3  # [m] of a rate of turn beside a velocity, in the one number by which two velocities are told apart
 
 ASKING = "Both controllers are asked how long they would go on without this drive; until they answer, it waits."
 IDLE = "No velocity on cmd_vel; both motors are left alone."
@@ -55,6 +58,10 @@ PLAYED = (
 )
 STOOD = "The drive stood still for {:.1f} s (Ctrl-Z, a suspended or overloaded computer)."
 NOT_A_NUMBER = "cmd_vel is not a number: send a finite velocity."
+GOES_ON = (
+    "A cmd_vel that went on through a stop is not obeyed until its sender begins again, with 0 or after a silence of "
+    "{:g} s; another's 0 lets it not go on."
+)
 BEGIN = "{} Both wheels stop. Then send a cmd_vel of 0, or pause, before the next velocity."
 
 
@@ -82,6 +89,9 @@ class State:
     angles: Wheels = Wheels(0.0, 0.0)  # [rad] of both at the last step
     reason: str = IDLE
     trouble: str = ""  # why velocities have to begin again; empty: they need not
+    senders: Senders = Senders()  # of velocities, obeyed or not
+    refused: str = ""  # why a velocity was not obeyed, where there is no trouble any more
+    refused_at: float = 0.0  # when that was
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,22 +104,47 @@ class Decision:
     healthy: bool = True
 
 
-def take_command(config: Config, state: State, twist: Twist, now: float, age: float = 0.0) -> State:
-    """Take a velocity that comes at `now` [s]; one that is not a number, or old by its stamp (age [s]), is a stop."""
-    silence = state.commanded is None or now - state.commanded > config.cmd_vel_timeout > 0.0
-    state = replace(_advance(config, _notice_pause(state, now), now), commanded=now)
+def take_command(
+    config: Config, state: State, twist: Twist, now: float, age: float = 0.0, number: int | None = None
+) -> State:
+    """Take a velocity that comes at `now` [s]; one that is not a number, or old by its stamp (age [s]), is a stop.
+
+    number: of its publisher's messages; None: not counted.
+    """
+    paused = inf if state.commanded is None else now - state.commanded
+    state = _hear(_advance(config, _notice_pause(state, now), now), twist, now, number)
     if not (isfinite(twist.linear) and isfinite(twist.angular)):
-        return replace(state, command=None, trouble=NOT_A_NUMBER)
+        return replace(_end(state, NOT_A_NUMBER), commanded=now)
     if not abs(age) <= (config.cmd_vel_timeout or inf):
-        return replace(state, command=None, trouble=OLD.format(config.cmd_vel_timeout))
-    if state.trouble and not (silence or twist == STILL):
-        return state
-    return replace(state, command=twist, trouble="")
+        return replace(_end(state, OLD.format(config.cmd_vel_timeout)), commanded=now)
+    sender = state.senders.latest
+    goes_on = state.senders.ended > 0 and state.senders.bars(state.command is not None)
+    if state.trouble:
+        known = sender.sequence.latest  # nan of its first message
+        silence = known if isfinite(known) else inf if number == 1 else paused
+        goes_on = goes_on or not (silence > config.cmd_vel_timeout > 0.0 or twist == STILL)
+        if goes_on:
+            return replace(state, commanded=now)
+    elif goes_on:
+        return replace(state, refused=GOES_ON.format(round(sender.sequence.needed, 1)), refused_at=now)
+    return replace(state, command=twist, commanded=now, trouble="", refused="", senders=state.senders.obey())
 
 
-def refuse_command(state: State, why: str, now: float) -> State:
-    """Take a velocity that comes at `now` [s] and cannot be obeyed, as a sentence says: it is a stop."""
-    return replace(state, command=None, commanded=now, trouble=why)
+def refuse_command(state: State, why: str, now: float, twist: Twist | None = None, number: int | None = None) -> State:
+    """Stop for a velocity that comes at `now` [s] and cannot be obeyed, as a sentence says; None: for any that may."""
+    state = state if twist is None else _hear(state, twist, now, number)
+    return replace(_end(state, why), commanded=now)
+
+
+def _hear(state: State, twist: Twist, now: float, number: int | None) -> State:
+    """Hear a velocity, whether or not it is obeyed."""
+    message = Message("cmd_vel", number, twist.linear + APART * twist.angular, twist == STILL, now)
+    return replace(state, senders=state.senders.hear(message, 0.0, -inf))
+
+
+def _end(state: State, trouble: str) -> State:
+    """Obey nothing any more of what was asked for."""
+    return replace(state, command=None, trouble=trouble, senders=state.senders.end())
 
 
 def step(config: Config, state: State, wheels: tuple[Wheel, Wheel], now: float) -> tuple[Decision, State]:
@@ -118,9 +153,11 @@ def step(config: Config, state: State, wheels: tuple[Wheel, Wheel], now: float) 
     driven = 0.0 if state.since is None else now - state.since
     trouble = next(filter(None, (find_trouble(wheel, now, driven) for wheel in wheels)), "")
     if trouble:
-        state = replace(state, command=None, trouble=trouble, twist=STILL)
+        state = replace(_end(state, trouble), twist=STILL)
     state = _follow_travel(_advance(config, _drop_stale(config, state, now), now), wheels)
-    healthy, reason = not state.trouble, BEGIN.format(state.trouble) if state.trouble else state.reason
+    refused = state.refused if now - state.refused_at <= TOLD else ""
+    healthy = not (state.trouble or refused)
+    reason = BEGIN.format(state.trouble) if state.trouble else refused or state.reason
     if state.command is None and state.since is None:
         return Decision(None, False, reason, healthy), replace(state, twist=STILL, behind=Wheels(0.0, 0.0))
     if state.since is None and any(map(awaits_answer, wheels)):
@@ -129,7 +166,7 @@ def step(config: Config, state: State, wheels: tuple[Wheel, Wheel], now: float) 
     state = replace(state, since=now if state.since is None else state.since, still_since=still_since)
     if state.command is None and _stands(state, wheels, now):
         return Decision(None, True, reason, healthy), replace(state, since=None, still_since=None)
-    reason = DRIVING if state.command is not None else reason
+    reason = DRIVING if state.command is not None and not refused else reason
     return Decision(_references(config, state), False, reason, healthy), state
 
 
@@ -138,7 +175,7 @@ def _notice_pause(state: State, now: float) -> State:
     paused = 0.0 if state.stepped is None else now - state.stepped
     if paused <= LONGEST_PAUSE or (state.command is None and state.twist == STILL):
         return state
-    return replace(state, command=None, twist=STILL, stepped=now, trouble=STOOD.format(paused))
+    return replace(_end(state, STOOD.format(paused)), twist=STILL, stepped=now)
 
 
 def _advance(config: Config, state: State, now: float) -> State:

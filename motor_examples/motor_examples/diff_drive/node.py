@@ -60,7 +60,7 @@ class DiffDrive(Node):
             self,
             kind,
             "cmd_vel",
-            qos.REFERENCE,
+            qos.COMMANDS,
             self._on_cmd_vel,
             hold_ups=self._hold_ups,
             commanders=self._commanders,
@@ -93,9 +93,9 @@ class DiffDrive(Node):
         if isinstance(message, TwistStamped):
             age = stamp_age(message.header.stamp, self.get_clock().now().nanoseconds)
         if twist != STILL and self._hold_ups.bars(arrival.waited):
-            self._state = drive.refuse_command(self._state, STOOD_STILL, now)
+            self._state = drive.refuse_command(self._state, STOOD_STILL, now, twist, arrival.number)
         else:
-            self._state = drive.take_command(self._config, self._state, twist, now, age)
+            self._state = drive.take_command(self._config, self._state, twist, now, age, arrival.number)
 
     def _on_timer(self) -> None:
         self._input.poll()

@@ -30,8 +30,8 @@ class Robot:
         self.edges = [0.0, 0.0]
         self.decisions: list[drive.Decision] = []
 
-    def send(self, twist: Twist, age: float = 0.0) -> None:
-        self.state = drive.take_command(self.config, self.state, twist, self.now, age)
+    def send(self, twist: Twist, age: float = 0.0, number: int | None = None) -> None:
+        self.state = drive.take_command(self.config, self.state, twist, self.now, age, number)
 
     def wheel(self, side: int, name: str) -> Wheel:
         sample = Sample(round(self.now * 1e9), self.speeds[side], 1.0, round(self.edges[side]))
@@ -146,6 +146,79 @@ def test_after_a_trouble_velocities_begin_again() -> None:
     robot.said["right"] = "running"
     robot.run(0.6)
     assert robot.run(DT, SPEED).references == wheel_speeds(ROBOT, SPEED)
+
+
+class Sender:
+    """A node that sends a velocity again and again, and counts."""
+
+    def __init__(self, robot: Robot, period: float, twist: Twist = SPEED) -> None:
+        self.robot, self.twist, self.every, self.number, self.steps = robot, twist, round(period / DT), 0, 0
+
+    def run(self, duration: float) -> bool:
+        """So long [s]; whether a wheel was told to turn."""
+        begun = len(self.robot.decisions)
+        for _ in range(round(duration / DT)):
+            if self.steps % self.every == 0:
+                self.number += 1
+                self.robot.send(self.twist, number=self.number)
+            self.steps += 1
+            self.robot.run(DT)
+        return any(one.references not in (None, Wheels(0.0, 0.0)) for one in self.robot.decisions[begun:])
+
+
+def trouble(robot: Robot, sender: Sender) -> None:
+    """A wheel stops for 3 s, and somebody cures it."""
+    robot.said["left"] = "stopped"
+    sender.run(3.0)
+    robot.said["left"] = "running"
+
+
+@pytest.mark.parametrize("idle", [False, True])  # the other one sends more of them
+def test_a_0_of_another_node_lets_no_stream_of_velocities_go_on(idle: bool) -> None:
+    """One 0 of an idle teleop, and the robot drove at 14 rad/s 0.13 s after a wheel's output was on again."""
+    robot = Robot()
+    stream = Sender(robot, 0.04)
+    assert stream.run(1.0)
+    trouble(robot, stream)
+    assert not stream.run(0.5)
+    for k in range(20):
+        if k == 0 or idle:
+            robot.send(STILL, number=1 + k)
+        assert not stream.run(0.2)
+    assert robot.state.senders.ended > 0 and robot.state.refused_at > robot.now - 0.1
+    assert "A cmd_vel that went on through a stop is not obeyed" in robot.decisions[-1].reason
+    assert not robot.decisions[-1].healthy
+    robot.send(Twist(0.1, 0.0), number=21 if idle else 2)  # who sent the 0 may drive
+    assert robot.run(DT).references == wheel_speeds(ROBOT, Twist(0.1, 0.0))
+    robot.send(STILL, number=stream.number + 1)  # and so may the stream after its own
+    stream.number += 1
+    assert stream.run(0.2) and robot.run(DT).references == wheel_speeds(ROBOT, SPEED)
+
+
+@pytest.mark.parametrize("before", [0.5, 5.0])  # [s] of the stream: one velocity, or some
+def test_a_stream_of_velocities_slower_than_their_timeout_has_to_begin_again(before: float) -> None:
+    """At 1 Hz each velocity comes after a pause of `cmd_vel_timeout`, and the robot drove by itself at once."""
+    robot = Robot()
+    stream = Sender(robot, 1.0)
+    assert stream.run(before)
+    assert stream.run(1.2 - 0.2 * (before > 1.0))  # a timeout lets it go on
+    trouble(robot, stream)
+    assert not stream.run(20.0)
+    stream.steps = stream.every * 100
+    robot.run(10.1)
+    assert stream.run(0.1)
+
+
+def test_who_begins_to_send_velocities_is_obeyed_beside_a_stream_that_goes_on() -> None:
+    robot = Robot()
+    stream = Sender(robot, 0.04)
+    stream.run(1.0)
+    trouble(robot, stream)
+    robot.send(Twist(0.1, 0.0), number=1)
+    assert robot.run(DT).references == wheel_speeds(ROBOT, Twist(0.1, 0.0))
+    stream.twist = Twist(0.3, 0.0)
+    stream.run(0.6)
+    assert robot.state.command is None  # it does not keep the other's velocity alive
 
 
 @pytest.mark.parametrize("twist", [Twist(nan, 0.0), Twist(0.5, float("inf"))])

@@ -2,8 +2,8 @@
 
 import pytest
 
-from motor_control.controller.reference.senders import Message, Senders
-from motor_control.controller.reference.sequence import LONGEST_OF_ONE
+from motor_model.streams.senders import Message, Senders
+from motor_model.streams.sequence import LONGEST_OF_ONE
 
 LONG_AGO, SPEED = -100.0, "speed"
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from motor_control.controller.reference.sequence import LONGEST, SHORTEST, TIMES, Sequence
+from motor_model.streams.sequence import LONGEST, SHORTEST, TIMES, Sequence
 
 
 def heard(*times: float) -> Sequence:

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from math import nan
 from typing import NamedTuple
 
-from motor_control.controller.reference.sequence import LONGEST, LONGEST_OF_ONE, Sequence
+from motor_model.streams.sequence import LONGEST, LONGEST_OF_ONE, Sequence
 
 MOST = 16  # senders that are remembered
 CLOSEST = 0.5  # of the shortest time between two messages: as many as are lost take longer than that each
