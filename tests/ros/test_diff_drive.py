@@ -14,6 +14,7 @@ from nav_msgs.msg import Odometry
 from patience import PATIENCE
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParameters
+from rclpy.parameter import Parameter as RosParameter
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool, Trigger
@@ -218,6 +219,24 @@ def test_a_drive_whose_computer_was_suspended_does_not_go_on_by_itself(monkeypat
         hear_both_wheels(node)
         node._on_timer()
         assert node._decision.reason.startswith("The drive stood still for 600.") and node._state.twist == STILL
+    finally:
+        node.destroy_node()
+        rclpy.shutdown()
+
+
+def test_a_drive_refuses_another_radius_while_it_drives_and_keeps_its_own() -> None:
+    stay_on_this_machine()
+    rclpy.init(args=[], domain_id=int(DOMAIN))
+    node = DiffDrive()
+    try:
+        other, limit = RosParameter("wheel_radius", value=0.01), RosParameter("max_linear", value=0.2)
+        assert node.set_parameters_atomically([RosParameter("wheel_radius", value=0.05)]).successful
+        hear_both_wheels(node)
+        node._state = drive.take_command(node._config, node._state, Velocity(0.3, 0.0), boot_time())
+        answer = node.set_parameters_atomically([other])
+        assert not answer.successful and answer.reason == drive.FIXED
+        assert node.set_parameters_atomically([limit]).successful
+        assert (node._config.geometry.wheel_radius, node._config.limits.linear) == (0.05, 0.2)
     finally:
         node.destroy_node()
         rclpy.shutdown()

@@ -62,6 +62,10 @@ GOES_ON = (
     "A cmd_vel that went on through a stop is not obeyed until its sender begins again, with 0 or after a silence of "
     "{:g} s; another's 0 lets it not go on."
 )
+FIXED = (
+    "wheel_radius and wheel_separation stay as they are while the robot moves or is asked to: its wheels would jump to "
+    "other speeds. Send a cmd_vel of 0, and set them when both wheels stand."
+)
 BEGIN = "{} Both wheels stop. Then send a cmd_vel of 0, or pause, before the next velocity."
 
 
@@ -168,6 +172,13 @@ def step(config: Config, state: State, wheels: tuple[Wheel, Wheel], now: float) 
         return Decision(None, True, reason, healthy), replace(state, since=None, still_since=None)
     reason = DRIVING if state.command is not None and not refused else reason
     return Decision(_references(config, state), False, reason, healthy), state
+
+
+def refuse_geometry(config: Config, state: State, wheels: tuple[Wheel, Wheel], wanted: Geometry) -> str:
+    """Tell why the robot may not be taken for another one now, as a sentence; "" where it may."""
+    asked = state.command not in (None, STILL) or state.twist != STILL
+    moves = asked or any(wheel.speed != 0.0 for wheel in wheels)
+    return FIXED if moves and wanted != config.geometry else ""
 
 
 def _notice_pause(state: State, now: float) -> State:

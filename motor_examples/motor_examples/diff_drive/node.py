@@ -144,9 +144,13 @@ class DiffDrive(Node):
     def _on_parameters(self, changed: list[Parameter]) -> SetParametersResult:
         values = {**self._values, **{parameter.name: parameter.value for parameter in changed}}
         try:
-            self._config, self._values = config_of(values), values
+            config = config_of(values)
         except MotorError as error:
             return SetParametersResult(successful=False, reason=str(error))
+        wheels = (self._left.wheel, self._right.wheel)
+        if why := drive.refuse_geometry(self._config, self._state, wheels, config.geometry):
+            return SetParametersResult(successful=False, reason=why)
+        self._config, self._values = config, values
         return SetParametersResult(successful=True)
 
 

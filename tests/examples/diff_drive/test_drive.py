@@ -311,6 +311,29 @@ def test_a_wheel_that_makes_up_for_its_way_keeps_to_its_limit(limit: float, most
     assert max(max(map(abs, one)) for one in asked) == pytest.approx(most)
 
 
+@pytest.mark.parametrize("wanted", [Geometry(1e-4, ROBOT.wheel_separation), Geometry(ROBOT.wheel_radius, 0.3)])
+def test_the_robot_stays_what_it_is_while_it_moves_or_is_asked_to(wanted: Geometry) -> None:
+    """A radius of 0.1 mm, set while it drove, sent both motors to their top speed at once."""
+    robot = Robot(Limits(linear_acceleration=1.0))
+
+    def refused() -> bool:
+        wheels = (robot.wheel(0, "left"), robot.wheel(1, "right"))
+        assert drive.refuse_geometry(robot.config, robot.state, wheels, ROBOT) == ""
+        return drive.refuse_geometry(robot.config, robot.state, wheels, wanted) == drive.FIXED
+
+    assert not refused()
+    robot.send(SPEED)
+    assert refused()  # not yet in motion
+    robot.run(1.0, SPEED)
+    assert refused()
+    robot.run(0.1, STILL)
+    assert refused()  # slowing down
+    robot.run(1.0, STILL)
+    assert not refused()
+    robot.speeds = Wheels(0.0, -0.1)  # pushed
+    assert refused()
+
+
 @pytest.mark.parametrize(("begin", "end"), [(0.0, 0.9), (0.9, 0.0), (0.5, 0.5)])
 def test_a_velocity_counts_from_when_it_comes(begin: float, end: float) -> None:
     """45°/s for so long turn by so much, whenever in a step they begin and end; by whole steps 0.8° more or less."""
