@@ -17,6 +17,7 @@ from motor_driver.session import Session
 from motor_driver.switch import reason_off
 from motor_model.sample import Info, Sample
 from motor_model.sensing.motion_check import MotionCheck
+from motor_model.sensing.shed_edges import ShedEdges
 
 NO_LINK = "There is no link to the board yet."
 LATE = (
@@ -57,7 +58,7 @@ class Driver:
         self.session: Session | None = None  # while a port is open
         self.trouble = NO_LINK  # while there is no port
         self.board: Hello | None = None  # the latest that ran
-        self.motion = self._nothing_seen()
+        self.motion, self.shed = self._nothing_seen(), ShedEdges()
         self.readings = self.resets = self.openings = 0
         self.runs_begun = 0  # boards that have begun to run: each time voltages have to begin at 0 V
         self._readout: Readout | None = None
@@ -217,7 +218,7 @@ class Driver:
             return []
         if restarted:
             self._readout.restart(frame, self.board, now)
-            self.motion = self._nothing_seen()
+            self.motion, self.shed = self._nothing_seen(), ShedEdges()
         session.latest, session.heard, session.silent = frame, now, False
         if session.hear_another(frame):
             self._halt(REPLAYED.format(session.port))
@@ -229,10 +230,12 @@ class Driver:
         host = exchange.hear_telemetry(readout.clock.newest, now)
         if exchange.fit.fit:
             self._drift = exchange.fit.fit.drift
+        errors = readout.errors
         sample = readout.sample(frame)
         self.motion = self.motion.see(sample)
-        if self.motion.stop and frame.enabled:
-            self._halt(self.motion.stop, motor=True)
+        self.shed = self.shed.see(sample.sample_time, readout.errors - errors, frame.enabled and sample.voltage != 0.0)
+        if (stop := self.motion.stop or self.shed.stop) and frame.enabled:
+            self._halt(stop, motor=True)
         return Reading(sample, host, restarted)
 
 
