@@ -61,6 +61,19 @@ INSISTED = (
 TWO_SENDERS = (
     "More than one node sends motor/voltage{}: only {} is obeyed, until it has been silent for {:g} s; end the others."
 )
+NO_NUMBER = "{:g} on motor/voltage is not a number (frame_id '{}'{}): {}; send numbers, or end who sends it."
+GETS_NOTHING = "the motor gets 0 V until the next number"
+LEFT_ASIDE = "it is left aside beside the sender that is obeyed"
+
+
+@dataclass(frozen=True, slots=True)
+class NoNumber:
+    """A command that was not a number."""
+
+    voltage: float
+    name: str  # its frame_id
+    at: int  # [ns] when it came
+    stops: bool  # it was, or may have been, of the sender that is obeyed
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,6 +98,7 @@ class Gate:
     rival: str | None = None  # what another sender calls itself that sends at the same time
     rival_at: int = 0  # [ns] when the two had both been heard
     refused: int = 0  # commands that were not numbers
+    no_number: NoNumber | None = None  # the latest of those
     calls: int = 0  # to switch on what was on, one soon after the other
     called: int = 0  # [ns] the latest call to switch on
 
@@ -99,12 +113,13 @@ class Gate:
     ) -> "Gate":
         """A command [V] of a sender is taken at `now` [ns]; one that is not a number stops the motor.
 
+        Another sender's, beside the one that is obeyed, is left aside as its numbers are; in doubt it stops the motor.
         `name` is the message's frame_id, `number` how many messages its publisher has sent, None if unknown; `waited`
         [ns] how long ago it was received: a plant that is held up takes it late, and it is as old as it is. `sent` [ns]
         is when it was sent, if known: what was on its way when the output was switched does not act.
         """
         if not isfinite(voltage):
-            return replace(self, command=0.0, received=None, refused=self.refused + 1)
+            return self._refuse(voltage, now, name, number)
         holder, what = self.sender, (voltage, now, name, number, waited, sent)
         ours = holder is not None and holder.sent(name, number, now) and not self._goes_on(name, number, now)
         if holder is not None and now - holder.at <= HOLD and not ours:
@@ -123,6 +138,18 @@ class Gate:
         if voltage != 0.0 and (unheard or waited > max(AWAY, self.timeout * 1e9)):  # it began before, whatever its pace
             return replace(told, first=replace(first, number=None), begun=False, away=True)
         return replace(told, begun=begun)
+
+    def _refuse(self, voltage: float, now: int, name: str, number: int | None) -> "Gate":
+        stops = self._may_be_obeyed(name, number, now)
+        told = replace(self, refused=self.refused + 1, no_number=NoNumber(voltage, name, now, stops))
+        return replace(told, command=0.0, received=None) if stops else replace(told, aside=Sender(name, number, now))
+
+    def _may_be_obeyed(self, name: str, number: int | None, now: int) -> bool:
+        """Whether a command may be of the sender that is obeyed, also where it came sooner than its own would."""
+        holder = self.sender
+        if holder is None or now - holder.at > HOLD:
+            return True
+        return name == holder.name and (number is None or holder.number is None or number > holder.number)
 
     def goes_on(self, name: str, number: int | None, now: int) -> bool:
         """Whether a command at `now` [ns] is the next one of the sender that is obeyed."""
@@ -153,7 +180,7 @@ class Gate:
     def enable(self, on: bool, now: int = 0) -> "Gate":
         """Switch the output at `now` [ns], by the user's will; a command from before the switch never acts."""
         on_from = replace(self, enabled=on, switched=max(self.switched, now), begun=on, handed=False, away=False)
-        return replace(on_from, stopped="", command=0.0, received=None)
+        return replace(on_from, stopped="", command=0.0, received=None, no_number=None)
 
     def stop(self, why: str) -> "Gate":
         """Switch the output off for a reason, until the user switches it on."""
@@ -194,6 +221,17 @@ class Gate:
         """What is wrong, as a sentence; empty if nothing is. `senders` names the nodes that can send."""
         if self.stopped:
             return " ".join(filter(None, (STOPPED.format(self.stopped), self.refusal(now))))
+        return " ".join(filter(None, (self.tell_no_number(now, senders), self._tell_of_senders(now, senders))))
+
+    def tell_no_number(self, now: int, senders: str = "") -> str:
+        """Say that what is not a number has come just now [ns]; empty if it has not."""
+        odd = self.no_number
+        if odd is None or now - odd.at > CONFLICT:
+            return ""
+        among = f"; {senders}" if senders else ""
+        return NO_NUMBER.format(odd.voltage, odd.name, among, GETS_NOTHING if odd.stops else LEFT_ASIDE)
+
+    def _tell_of_senders(self, now: int, senders: str) -> str:
         if self.conflict(now):
             among = f" ({senders})" if senders else ""
             obeyed = f"frame_id '{self.sender.name}'" if self.sender and self.sender.name != self.rival else "the first"

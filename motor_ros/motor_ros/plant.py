@@ -173,9 +173,8 @@ class Plant:
         name, number = message.header.frame_id, arrival.number
         self.gate = before.take(voltage, arrival.at, name, number, arrival.waited, arrival.sent)
         if self.gate.refused > before.refused:
-            self._node.get_logger().error(
-                f"{voltage} on motor/voltage is not a number: the motor gets 0 V.", throttle_duration_sec=1.0
-            )
+            said = self.gate.tell_no_number(now, self._input.senders(self._node))
+            self._node.get_logger().error(said, throttle_duration_sec=1.0)
         elif not before.problem(now) and (problem := self.gate.problem(now, self._input.senders(self._node))):
             self._node.get_logger().warning(problem, throttle_duration_sec=1.0)
 

@@ -303,6 +303,37 @@ def test_what_is_not_a_number_is_0_volt_until_the_next_number(number: float) -> 
     assert plant.take(2.0, T0 + 55 * MS, "", 12).voltage(T0 + 55 * MS) == 2.0
 
 
+@pytest.mark.parametrize(
+    ("name", "number", "stops"),
+    [
+        ("hand", 500, False),  # another, by what it calls itself
+        ("", 10, False),  # or by its number: the obeyed one has sent that already
+        ("", 11, True),  # its own
+        ("", 5000, True),  # too soon to be its own, and in doubt 0 V
+        ("", None, True),
+    ],
+)
+def test_what_is_not_a_number_stops_its_own_sender_alone(name: str, number: int | None, stops: bool) -> None:
+    """Of another sender it took the voltage from the one that was obeyed, a sample long each time."""
+    plant, now = stream(gate(), 2.0, range(0, 50, 5), 1), T0 + 46 * MS
+    assert plant.problem(now) == ""
+    plant = plant.take(nan, now, name, number)
+    assert plant.voltage(now) == (0.0 if stops else 2.0) and plant.refused == 1
+    said = f"nan on motor/voltage is not a number (frame_id '{name}'; /one, /two): "
+    said += "the motor gets 0 V until the next" if stops else "it is left aside"
+    assert plant.problem(now + CONFLICT, "/one, /two").startswith(said)
+    assert plant.problem(now + CONFLICT + 1, "/one, /two") == ""
+
+
+def test_another_sender_that_sends_no_numbers_is_said_to_be_there_and_obeyed_only_from_0_volt_on() -> None:
+    plant = stream(gate(), 2.0, range(0, 50, 5), 1).take(inf, T0 + 46 * MS, "hand", 70)
+    plant = plant.take(2.0, T0 + 50 * MS, "", 11).take(inf, T0 + 51 * MS, "hand", 71)
+    assert "More than one node sends motor/voltage" in plant.problem(T0 + 52 * MS)
+    later = T0 + 50 * MS + HOLD + MS
+    plant = plant.take(5.0, later, "hand", 90)
+    assert plant.voltage(later) == 0.0 and plant.take(inf, later + MS, "hand", 91).voltage(later + MS) == 0.0
+
+
 @pytest.mark.parametrize(("age", "acts"), [(100 * MS, True), (100 * MS + 1, False)])
 def test_a_command_is_stale_after_the_time_out(age: int, acts: bool) -> None:
     plant = gate().take(0.0, T0).take(4.0, T0)

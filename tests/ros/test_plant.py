@@ -2,10 +2,11 @@
 
 import time
 from dataclasses import replace
+from math import nan
 from types import SimpleNamespace
 
 import pytest
-from diagnostic_msgs.msg import DiagnosticArray
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
@@ -188,3 +189,21 @@ def test_references_that_nobody_hears_are_said(bench: Bench) -> None:
     bench.wait(lambda: says(True), "the sentence")
     bench.hear(Float64, "motor/reference", qos.REFERENCE)
     bench.wait(lambda: says(False), "its end")
+
+
+def test_a_voltage_that_is_not_a_number_is_a_warning_that_names_its_sender(bench: Bench) -> None:
+    plant, told = Plant(bench.node, Info(), Gate(True, 0.1)), bench.hear(DiagnosticArray, "/diagnostics")
+    hand = bench.publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
+    message = MotorVoltage(voltage=nan)
+    message.header.frame_id = "hand"
+
+    def says() -> bool:
+        hand.publish(message)
+        assert plant.voltage() == 0.0
+        plant.diagnose("", {})
+        return bool(told) and told[-1].status[0].level == DiagnosticStatus.WARN
+
+    bench.wait(says, "a warning")
+    node = bench.node.get_fully_qualified_name()
+    said = f"nan on motor/voltage is not a number (frame_id 'hand'; {node}): the motor gets 0 V until the next number"
+    assert told[-1].status[0].message.startswith(said)
