@@ -47,8 +47,11 @@ class Answers:
         self._header.stamp = self._now()
         self._publish(output, config, demand)
 
-    def diagnose(self, config: Config, demand: Demand | None, missing: str) -> None:
-        """Publish the diagnostic of the second that is over; demand: what is obeyed; missing: who is, a sentence."""
+    def diagnose(self, config: Config, demand: Demand | None, missing: str, unheard: str) -> None:
+        """Publish the diagnostic of the second that is over; demand: what is obeyed; missing: who is, a sentence.
+
+        unheard: who asks for a motion and cannot be heard, likewise; the log has it already.
+        """
         if missing and missing == self._missing and missing != self._warned:  # for a second: not only just discovered
             self._node.get_logger().warning(missing)
             self._warned = missing
@@ -56,9 +59,8 @@ class Answers:
         name = f"{self._node.get_fully_qualified_name()}: {self._header.frame_id or 'no motor yet'}"
         rivals = count_publishers(self._node, "motor/voltage")
         referrers = self._referrers() if demand is not None and demand.source is Source.REFERENCE else []
-        told = diagnostics_message(
-            self._output, config, self._answered, self._worst, rivals, referrers, missing, name, self._now()
-        )
+        counted = self._answered, self._worst, rivals, referrers
+        told = diagnostics_message(self._output, config, *counted, missing, unheard, name, self._now())
         self._diagnostics.publish(told)
         self._answered, self._worst = 0, 0.0
 

@@ -63,14 +63,17 @@ def diagnostics_message(
     publishers: int,
     referrers: Sequence[str],
     missing: str,
+    unheard: str,
     name: str,
     stamp: Time,
 ) -> DiagnosticArray:
     """Make one status: state, samples `answered` in the last second, their `worst` latency [s], publishers, referrers.
 
-    Referrers: the nodes that publish a reference that is in force; missing: who should be there, a sentence.
+    Referrers: the nodes that publish a reference that is in force; missing: who should be there, a sentence;
+    unheard: who asks for a motion and cannot be heard.
     """
     problem = RIVALS if publishers > 1 else REFERRERS.format(", ".join(referrers)) if len(referrers) > 1 else missing
+    problem = " ".join(filter(None, (problem, unheard)))
     values = {
         "state": output.state,
         "samples per second": str(answered),

@@ -10,7 +10,7 @@ from std_srvs.srv import Trigger
 from motor_control.announcements import describe_start
 from motor_control.answers import Answers
 from motor_control.controller import controller
-from motor_control.demands import Demands
+from motor_control.demands import TOPICS, Demands
 from motor_control.neighbours import Neighbours
 from motor_control.parameters import PROGRAM, ROWS
 from motor_control.settings import Settings
@@ -21,6 +21,7 @@ from motor_msgs.msg import MotorInfo, MotorSpeed
 from motor_ros import qos
 from motor_ros.clocks.steady_timer import steady_timer
 from motor_ros.graph.callers import Callers
+from motor_ros.graph.unheard import Unheard
 from motor_ros.messages import info_of, sample_of
 from motor_ros.parameters import declare
 from motor_ros.run import quick_executor, run
@@ -39,7 +40,7 @@ class MotorControl(Node):
         _, self._toggles = self._toggles.see(values, time.monotonic())
         self._state = controller.State(since=time.monotonic())
         self._speakers = Speakers(self)
-        self._answers, self._neighbours = Answers(self), Neighbours(self)
+        self._answers, self._neighbours, self._unheard = Answers(self), Neighbours(self), Unheard(self, *TOPICS)
         self.create_subscription(MotorSpeed, "motor/speed", self._on_speed, qos.newest(qos.SPEED))
         self.create_subscription(MotorInfo, "motor/info", self._on_info, qos.INFO)
         self._demands = Demands(self, self._settings.config)
@@ -77,7 +78,9 @@ class MotorControl(Node):
             self._answers.announce_silence(output, self._settings.config, self._state.demand)
 
     def _on_second(self) -> None:
-        self._answers.diagnose(self._settings.config, self._state.demand, self._neighbours.missing())
+        self._answers.diagnose(
+            self._settings.config, self._state.demand, self._neighbours.missing(), self._unheard.look()
+        )
 
     def _poll(self) -> None:
         """Take what is asked for, before what acts on it."""

@@ -19,6 +19,7 @@ from motor_ros.graph.callers import Callers
 from motor_ros.graph.commanders import Commanders
 from motor_ros.graph.other_plant import OtherPlant
 from motor_ros.graph.publishers import count_publishers
+from motor_ros.graph.unheard import Unheard
 from motor_ros.messages import diagnostic_message, info_message, speed_message, stamp_age
 from motor_ros.numbered_input import Arrival, NumberedInput
 
@@ -60,6 +61,7 @@ class Plant:
         self._joint = node.create_publisher(JointState, "joint_states", qos.JOINT_STATES)
         self._diagnostics = node.create_publisher(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
         self._commanders, self._played = Commanders(node, "motor/voltage"), ""
+        self._best_effort = Unheard(node, "motor/voltage")
         self._unheard = 0  # diagnostics in a row in which nobody heard references
         self._old, self._old_at = "", 0  # the latest voltage with an old stamp, as a sentence, and when [ns] that was
         self._input = NumberedInput(
@@ -136,7 +138,8 @@ class Plant:
         now = time.monotonic_ns()
         gate = self.gate.problem(now, self._input.senders(self._node))
         old = self._old if now - self._old_at <= CONFLICT else ""
-        message = " ".join(filter(None, (problem, self._find_others(now), self._look_for_controller(), old, gate)))
+        around = self._find_others(now), self._look_for_controller(), self._best_effort.look()
+        message = " ".join(filter(None, (problem, *around, old, gate)))
         level = DiagnosticStatus.WARN if message else DiagnosticStatus.OK
         sender = self.gate.sender.name if self.gate.sender and self.gate.fresh(now) else ""
         told = diagnostic_message(

@@ -11,6 +11,7 @@ import rclpy
 from controller_bench import PATIENT, FakePlant
 from diagnostic_msgs.msg import DiagnosticStatus
 from rcl_interfaces.srv import DescribeParameters
+from rclpy.qos import qos_profile_sensor_data
 from std_msgs.msg import Float64
 from workbench import PATIENCE, end, start
 
@@ -232,3 +233,13 @@ def test_a_bad_start_is_one_sentence(assignment: str, words: str) -> None:
     out, err = process.communicate(timeout=PATIENCE)
     assert process.returncode == 1 and out == ""
     assert words in err and len(err.strip().splitlines()) == 1
+
+
+@pytest.mark.usefixtures("process")
+def test_a_best_effort_publisher_of_references_is_said(plant: FakePlant) -> None:
+    """Its 0 does not stop the motor, either: it never comes."""
+    plant.answer(0.0)
+    teleop = plant.node.create_publisher(Float64, "motor/reference", qos_profile_sensor_data)
+    said = "What /bench sends on /motor/reference is not heard, nor would a 0 be: it is published best effort"
+    plant.wait(lambda: plant.answer(0.0).state == "disabled" and warned(plant, said), "a warning")
+    plant.node.destroy_publisher(teleop)

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
@@ -207,3 +208,15 @@ def test_a_voltage_that_is_not_a_number_is_a_warning_that_names_its_sender(bench
     node = bench.node.get_fully_qualified_name()
     said = f"nan on motor/voltage is not a number (frame_id 'hand'; {node}): the motor gets 0 V until the next number"
     assert told[-1].status[0].message.startswith(said)
+
+
+def test_a_best_effort_publisher_of_voltages_is_a_warning(bench: Bench) -> None:
+    plant, told = Plant(bench.node, Info(), Gate(True, 0.1)), bench.hear(DiagnosticArray, "/diagnostics")
+    bench.publisher(MotorVoltage, "motor/voltage", qos_profile_sensor_data)
+
+    def says() -> bool:
+        plant.diagnose("", {})
+        return bool(told) and told[-1].status[0].level == DiagnosticStatus.WARN
+
+    bench.wait(says, "a warning")
+    assert "sends on /motor/voltage is not heard, nor would a 0 be" in told[-1].status[0].message

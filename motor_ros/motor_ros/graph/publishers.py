@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from rclpy.node import Node, NodeNameNonExistentError
+from rclpy.qos import ReliabilityPolicy
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 UNKNOWN = "_NODE_NAME_UNKNOWN_"  # the middleware tells of a publisher before it tells of its node
@@ -22,6 +23,14 @@ class Publisher(NamedTuple):
 def list_publishers(node: Node, topic: str) -> list[Publisher]:
     """List the publishers of a topic."""
     return list(map(_one, node.get_publishers_info_by_topic(topic)))
+
+
+def list_unreliable(node: Node, topic: str) -> list[Publisher]:
+    """List the publishers of a topic that no reliable subscription hears: those that publish best effort."""
+    if not count_publishers(node, topic):
+        return []
+    found = node.get_publishers_info_by_topic(topic)
+    return [_one(one) for one in found if one.qos_profile.reliability is ReliabilityPolicy.BEST_EFFORT]
 
 
 def list_subscribers(node: Node, topic: str) -> list[Publisher]:
