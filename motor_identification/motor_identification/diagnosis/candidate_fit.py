@@ -22,6 +22,7 @@ from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.noise.gain_learning import learn_errors_of_runs
 from motor_identification.noise.likelihood import estimate_noise, log_likelihood
+from motor_identification.noise.run_gain import price_scatter
 from motor_identification.validation.hold_out import HoldOut
 from motor_model.effects import EFFECT_BY_NAME, do_split_kv
 
@@ -55,7 +56,7 @@ def judge_beside_torque(model: Model, hold_out: HoldOut, guess: ErrorModel | Non
     held, training = score_held_out(hold_out, model.held, errors, lag), score_training(model.estimate, rows, errors)
     parts = (training,) if model.held.seen else (held, training)
     score = Score(
-        sum(part.likelihood for part in parts),
+        sum(part.likelihood for part in parts) - price_scatter(errors.gain),
         held_out=held.likelihood,
         scored=sum(map(np.count_nonzero, mark_common_set(hold_out))),
         moments=np.concatenate([part.moments for part in parts]),

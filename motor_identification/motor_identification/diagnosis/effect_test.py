@@ -28,7 +28,7 @@ from motor_identification.validation.instants import (
     needs_instant,
 )
 from motor_model.effect import Effect
-from motor_model.effects import EFFECT_BY_NAME
+from motor_model.effects import EFFECT_BY_NAME, LAGS
 
 EFFECT_ORDER = {name: number for number, name in enumerate(EFFECT_BY_NAME)}  # the most common first
 Heard = Callable[[CandidateTest], None]  # told of each test as it is done
@@ -193,6 +193,12 @@ def is_there_from_the_start(test: CandidateTest) -> bool:
 def is_supported(test: CandidateTest) -> bool:
     """Decide whether unseen data speak for an effect, and those that it was fitted to do not speak against it."""
     return test.is_likely(likelihood_threshold()) and test.fits_training
+
+
+def may_be_gains(effect: str) -> bool:
+    """Decide whether an effect is a curve of steady speeds over voltages, which gains of runs at one level each are."""
+    row = EFFECT_BY_NAME[effect]
+    return not (row.periodic or row.anywhere or row.after_reversals or effect in LAGS)
 
 
 def count_parameters(effect: str) -> int:

@@ -21,6 +21,7 @@ from motor_identification.noise.run_gain import (
     estimate_scatter,
     goes_smoothly,
     guess_deviation,
+    price_scatter,
 )
 
 LEAST_SCATTER = 1e-6  # of the gains to begin with
@@ -44,7 +45,7 @@ def learn_errors_of_runs(
     if differing.gain > MOST_SCATTER or _follow_levels(rows, differing, lag):
         return agreeing
     gained = log_likelihood(rows, differing, lag) - log_likelihood(rows, agreeing, lag)
-    return differing if gained > PRICE else agreeing
+    return differing if gained > PRICE + price_scatter(differing.gain) else agreeing
 
 
 def learn_own_gains(rows: Sequence[ErrorData], lag: Lag, guess: ErrorModel) -> ErrorModel | None:
@@ -71,7 +72,8 @@ def _follow_levels(rows: Sequence[ErrorData], model: ErrorModel, lag: Lag) -> bo
 
 def score_under_own_errors(rows: Sequence[ErrorData], lag: Lag, guess: ErrorModel, evaluations: int) -> float:
     """Compute the log likelihood of the increments of runs under the errors that are learned of them."""
-    return log_likelihood(rows, learn_errors_of_runs(rows, lag, guess, evaluations), lag)
+    errors = learn_errors_of_runs(rows, lag, guess, evaluations)
+    return log_likelihood(rows, errors, lag) - price_scatter(errors.gain)
 
 
 def _learn_with_gains(rows: Sequence[ErrorData], lag: Lag, guess: ErrorModel | None, evaluations: int) -> ErrorModel:

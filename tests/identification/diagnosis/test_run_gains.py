@@ -10,7 +10,7 @@ from plant import record
 from stub_selections import step_of
 
 from motor_identification.diagnose import diagnose
-from motor_identification.diagnosis import candidate_model
+from motor_identification.diagnosis import candidate_fit, candidate_model
 from motor_identification.diagnosis.candidate_fit import judge_beside_torque, validate_model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.detectability import find_undetectable
@@ -95,6 +95,15 @@ def test_what_a_run_alone_has_is_no_structure(monkeypatch: pytest.MonkeyPatch) -
     assert "voltage" in list_certain(rubbing)  # of which it is a curve
     monkeypatch.setattr(candidate_model, "learn_own_gains", lambda *_: None)
     assert "voltage" in list_certain(slower)
+
+
+def test_a_scatter_has_its_price_the_larger_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    estimate, hold_out = true_motor(runs()), make_hold_out(runs(), ())
+    priced = judge_beside_torque(validate_model(hold_out, estimate), hold_out, None, 120)
+    monkeypatch.setattr(candidate_fit, "price_scatter", lambda scatter: 0.0)
+    free = judge_beside_torque(validate_model(hold_out, estimate), hold_out, None, 120)
+    assert free.errors.gain == priced.errors.gain > 0.01
+    assert free.likelihood - priced.likelihood == pytest.approx(priced.errors.gain / 0.02, rel=1e-6)
 
 
 @pytest.mark.parametrize(("scatter", "hidden"), [(0.003, False), (0.05, True)])

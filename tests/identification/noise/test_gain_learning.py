@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from motor_identification.measurement.intervals import index_intervals
+from motor_identification.noise import gain_learning
 from motor_identification.noise.error_data import ErrorData, log_likelihood, make_error_data, make_whitening
-from motor_identification.noise.error_learning import learn_error_model
+from motor_identification.noise.error_learning import PRICE, learn_error_model
 from motor_identification.noise.error_model import ErrorModel, Lag
 from motor_identification.noise.gain_learning import learn_errors_of_runs, learn_own_gains
 from motor_identification.noise.run_gain import FEWEST_RUNS, MOST_SCATTER
@@ -92,3 +93,12 @@ def test_runs_have_gains_of_their_own_however_likely_a_slow_torque_is() -> None:
     assert learn_own_gains(leave(rising, levels), LAG, torque) is None
     for size, supply in ((0.13, True), (0.2, False)):
         assert (learn_own_gains(leave(1.0 + size * (GAINS - 1.0) / 0.03), LAG, torque) is not None) is supply
+
+
+def test_gains_differ_where_that_is_worth_their_scatter(monkeypatch: pytest.MonkeyPatch) -> None:
+    rows = leave(1.0 + 0.5 * (GAINS - 1.0))
+    learned = learn_errors_of_runs(rows, LAG)
+    gained = log_likelihood(rows, learned, LAG) - log_likelihood(rows, learn_error_model(rows, LAG), LAG)
+    for price, differ in ((gained - PRICE - 0.1, True), (gained - PRICE + 0.1, False)):
+        monkeypatch.setattr(gain_learning, "price_scatter", lambda scatter, price=price: price)
+        assert (learn_errors_of_runs(rows, LAG).gain > 0.0) is differ

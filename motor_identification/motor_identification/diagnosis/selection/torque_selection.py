@@ -13,6 +13,7 @@ from motor_identification.diagnosis.candidate_test import (
     predicts_far_worse,
     takes_away_more,
 )
+from motor_identification.diagnosis.effect_test import may_be_gains, sort_by_table
 from motor_identification.diagnosis.evidence.line_evidence import adds_only_lines, count_waves
 from motor_identification.diagnosis.run_gains import find_gap_less_gains, may_be_of_gains
 from motor_identification.diagnosis.selection.backward_elimination import eliminate_backward
@@ -123,9 +124,12 @@ def list_hidden_by_torque(plain: Selection, beside: Selection) -> tuple[str, ...
     Gains of runs at one level each scatter as a friction makes them.
     """
     learned, held = beside.model.learned, plain.model.held
-    if learned is None or beside.steps or not (plain.steps and held.seen and plain.model.complete):
+    if learned is None or beside.steps or not (plain.steps and held.seen):
         return ()
-    if learned.gain == 0.0 and (len(plain.steps) != 1 or _is_told(learned, held)):
+    if learned.gain > 0.0:  # what it leaves besides are the gains, however many were found
+        names = {name for step in plain.steps for name in (step.found.effect, *step.rivals)}
+        return sort_by_table(name for name in names if may_be_gains(name))
+    if not plain.model.complete or len(plain.steps) != 1 or _is_told(learned, held):
         return ()
     found = plain.steps[0]
     return (found.found.effect, *found.rivals)

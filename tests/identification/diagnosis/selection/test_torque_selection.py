@@ -288,6 +288,18 @@ def test_gains_of_runs_hide_what_was_found(gain: float, by_fit: bool, found: int
     assert module.list_hidden_by_torque(plain, replace(beside, steps=(step,))) == ()
 
 
+def test_gains_of_runs_hide_curves_though_they_left_more_and_no_lag() -> None:
+    """A friction and an asymmetry of six runs, whose gains left some of it without them: nothing was said."""
+    before = seen(stub_model(9.0), True)
+    names = ("direction_asymmetry", "transport_delay", "coulomb_friction")
+    steps = [step_of(stub_test(name, before, 5.0, 100.0)) for name in names]
+    plain = selection_of(seen(stub_model(4.0), True), *steps)
+    assert not plain.model.complete
+    for gain, hidden in ((0.05, ("coulomb_friction", "direction_asymmetry")), (0.0, ())):
+        beside = selection_of(replace(plain.model, learned=ErrorModel(0.0, 0.0, 0.1, 0.1, gain=gain)))
+        assert module.list_hidden_by_torque(plain, beside) == hidden
+
+
 @pytest.mark.parametrize(
     ("plain_gap", "left", "kept", "too_much"),
     [
