@@ -22,10 +22,10 @@ def write_sketch(folder: Path, config: FirmwareConfig) -> Path:
     Raises:
         BoardError: there is something in the folder, or it cannot be written.
     """
-    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
-        raise BoardError(f"{folder} is not an empty folder: name one that does not exist yet.")
     defines = "\n".join(f"#define {option[2:].replace('=', ' ')}" for option in config.defines())
     try:
+        if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+            raise BoardError(f"{folder} is not an empty folder: name one that does not exist yet.")
         folder.mkdir(parents=True, exist_ok=True)
         for path in sources("firmware/core", "firmware/board", suffixes=(".c", ".h")):
             shutil.copyfile(path, folder / path.name)

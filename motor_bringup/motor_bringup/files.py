@@ -16,11 +16,15 @@ def named(path: str, what: str) -> str:
     """Return an absolute path, so that it does not matter where a program is started.
 
     Raises:
-        MotorError: there is no such file.
+        MotorError: there is no such file, or the name is one that no file can have.
     """
     if not path:
         raise MotorError(f"no {what} was named.")
     found = Path(path).expanduser().absolute()
-    if not found.exists():
+    try:
+        there = found.exists()
+    except OSError as error:  # such as a name of more than 255 characters
+        raise MotorError(f"the {what} {found} cannot be read ({error.strerror}): name another one.") from error
+    if not there:
         raise MotorError(f"there is no {what} {found}: name one that there is, or leave the argument out.")
     return str(found)

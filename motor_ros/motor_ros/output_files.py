@@ -24,10 +24,17 @@ def check_outputs(files: Iterable[str | Path], force: bool, made: str | Path | N
         MotorError: a file exists already and `force` is false, or its directory cannot be written to.
     """
     for path in map(Path, files):
-        directory = path.parent
-        if made is not None and directory == Path(made):
-            directory = next(parent for parent in path.absolute().parents if parent.exists())
-        if not directory.is_dir() or not os.access(directory, os.W_OK) or path.is_dir():
-            raise MotorError(f"cannot write {path}: name a file in a directory that exists and can be written to.")
-        if path.exists() and not force:
-            raise MotorError(EXISTS.format(path))
+        try:
+            _check(path, force, made)
+        except OSError as error:  # such as a name of more than 255 characters
+            raise MotorError(f"cannot write {path} ({error.strerror}): choose another name.") from error
+
+
+def _check(path: Path, force: bool, made: str | Path | None) -> None:
+    directory = path.parent
+    if made is not None and directory == Path(made):
+        directory = next(parent for parent in path.absolute().parents if parent.exists())
+    if not directory.is_dir() or not os.access(directory, os.W_OK) or path.is_dir():
+        raise MotorError(f"cannot write {path}: name a file in a directory that exists and can be written to.")
+    if path.exists() and not force:
+        raise MotorError(EXISTS.format(path))

@@ -35,3 +35,8 @@ def test_a_sketch_overwrites_nothing(tmp_path: Path) -> None:
     (tmp_path / "mine").write_text("precious")
     with pytest.raises(BoardError, match="is not an empty folder"):
         write_sketch(tmp_path, FirmwareConfig())
+
+
+def test_a_name_that_no_folder_can_have_is_a_sentence(tmp_path: Path) -> None:
+    with pytest.raises(BoardError, match=r"cannot write .*a \(File name too long\): name another folder\."):
+        write_sketch(tmp_path / ("a" * 256), FirmwareConfig())

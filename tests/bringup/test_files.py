@@ -25,3 +25,8 @@ def test_what_is_not_there_is_named_whole(tmp_path: Path) -> None:
         named(str(tmp_path / "none.yaml"), "model file")
     with pytest.raises(MotorError, match=r"no bag was named\."):
         named("", "bag")
+
+
+def test_a_name_that_no_file_can_have_is_a_sentence() -> None:
+    with pytest.raises(MotorError, match=r"the bag /.*a cannot be read \(File name too long\): name another one\."):
+        named("/tmp/" + "a" * 256, "bag")

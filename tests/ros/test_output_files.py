@@ -35,3 +35,10 @@ def test_a_directory_that_the_command_makes_may_be_missing(tmp_path: Path) -> No
     (tmp_path / "file").write_text("no directory")
     with pytest.raises(MotorError, match="cannot write .*/file/report.html"):
         check_outputs([tmp_path / "file/report.html"], False, made=tmp_path / "file")
+
+
+def test_a_name_that_no_file_can_have_is_a_sentence(tmp_path: Path) -> None:
+    for name in ("a" * 256, "a" * 256 + "/model.yaml", "b/" * 3000 + "model.yaml"):
+        for made in (None, (tmp_path / name).parent):
+            with pytest.raises(MotorError, match=r"cannot write .* \(File name too long\): choose another name\."):
+                check_outputs([tmp_path / name], False, made)

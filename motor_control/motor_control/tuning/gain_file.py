@@ -47,9 +47,9 @@ def save_gains(path: Path, tuning: Tuning, model: Path, force: bool = False) -> 
     Raises:
         MotorError: the file exists, or cannot be written.
     """
-    if path.exists() and not force:
-        raise MotorError(f"{path} exists already and is left as it is: choose another name, or move it away.")
     try:
+        if path.exists() and not force:
+            raise MotorError(f"{path} exists already and is left as it is: choose another name, or move it away.")
         write_text(path, gain_text(tuning, model))
     except OSError as error:
         raise MotorError(f"cannot write {path} {say_refusal(error)}.") from error

@@ -5,7 +5,7 @@ import os
 import sys
 from math import inf
 
-from motor_identification.cli.identify import add_effects_option
+from motor_identification.cli.identify import add_effects_option, list_effects
 from motor_identification.cli.options.mapping import add_mapping_options, make_source
 from motor_model.effects import EFFECTS
 from motor_ros.command.parser import CommandParser
@@ -60,15 +60,14 @@ def _diagnose(options: argparse.Namespace) -> int:
     job = DiagnosisJob(
         source=make_source(options),
         validation=tuple(options.validate),
-        request=Request(named(options.known_effects), workers=os.cpu_count() or 1, time_limit=options.budget),
+        request=Request(
+            list_effects("--known-effects", options.known_effects),
+            workers=os.cpu_count() or 1,
+            time_limit=options.budget,
+        ),
     )
     diagnosed(job, files, "The diagnosis was interrupted; nothing was written.")
     return 0
-
-
-def named(effects: str) -> tuple[str, ...]:
-    """Return the names in a list with commas."""
-    return tuple(name.strip() for name in effects.split(",") if name.strip())
 
 
 if __name__ == "__main__":

@@ -7,8 +7,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from motor_identification.cli.diagnose import named
-from motor_identification.cli.identify import add_effects_option
+from motor_identification.cli.identify import add_effects_option, list_effects
 from motor_identification.cli.options.plant import add_plant_options, passed_on
 from motor_model.excitation import PROFILES
 from motor_ros.command.parser import CommandParser
@@ -56,7 +55,7 @@ def _explore(options: argparse.Namespace) -> int:
     from motor_identification.cli._diagnosed import Files
     from motor_model.effects import normalised
 
-    normalised(named(options.known_effects))  # a wrong name is refused before anything moves
+    normalised(list_effects("--known-effects", options.known_effects))  # a wrong name is refused before anything moves
     directory, files = _made(Path(options.directory)), Files(report=options.directory)
     profiles: list[str] = []
     bags: list[str] = []
@@ -96,7 +95,7 @@ def _diagnosed(bags: list[str], options: argparse.Namespace, files: "Files") -> 
     from motor_identification.service.job import DiagnosisJob
 
     namespace = "" if options.model is not None else options.topic_namespace  # offline there is none
-    request = Request(named(options.known_effects), workers=os.cpu_count() or 1)
+    request = Request(list_effects("--known-effects", options.known_effects), workers=os.cpu_count() or 1)
     interrupted = f"Interrupted; what was recorded is in {options.directory}."
     return diagnosed(DiagnosisJob(Source(tuple(bags), namespace), request=request), files, interrupted)
 

@@ -72,6 +72,18 @@ def add_effects_option(parser: argparse.ArgumentParser, name: str, meaning: str)
     action.completer = listed_names([effect.name for effect in EFFECTS])  # type: ignore[attr-defined]
 
 
+def list_effects(option: str, given: str) -> tuple[str, ...]:
+    """List the names that an option was given, separated by commas.
+
+    Raises:
+        MotorError: there are commas, and no name.
+    """
+    names = tuple(name.strip() for name in given.split(",") if name.strip())
+    if given.strip() and not names:
+        raise MotorError(f"{option} {given} names no effect: name some, or leave it out (see --help).")
+    return names
+
+
 def main(args: list[str] | None = None) -> int:
     """`ros2 run motor_identification identify`."""
     options = parser().parse_args(args)
@@ -83,7 +95,7 @@ def _identify(options: argparse.Namespace) -> int:
 
     from motor_identification.service.job import Job, run_job
 
-    effects = tuple(name.strip() for name in options.effects.split(",") if name.strip())
+    effects = list_effects("--effects", options.effects)
     report = [os.path.join(options.report, name) for name in REPORT_FILES] if options.report else []
     check_outputs(filter(None, (options.output, options.json, *report)), options.force, options.report)
     search = SearchConfig(options.particles, options.epochs, options.seed)

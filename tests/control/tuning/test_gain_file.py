@@ -33,3 +33,8 @@ def test_another_file_is_left_as_it_is(tmp_path: Path) -> None:
     assert path.read_bytes() == written
     save_gains(path, tuning(time_constant=0.1), Path("m.yaml"), force=True)
     assert path.read_bytes() != written
+
+
+def test_a_name_that_no_file_can_have_is_a_sentence(tmp_path: Path) -> None:
+    with pytest.raises(MotorError, match=r"cannot write .*a \(File name too long\)"):
+        save_gains(tmp_path / ("a" * 256), tuning(), Path("m.yaml"))

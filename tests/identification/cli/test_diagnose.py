@@ -81,6 +81,7 @@ def test_what_is_known_is_not_found_again_and_only_the_part_asked_for_is_read(
         (["{bags}/coast", "--validate", "{bags}/nowhere"], "There is no bag"),
         (["{bags}/coast", "--validate", "{bags}/staircase/../coast"], "is given for the fit and for validation"),
         (["{bags}/coast", "--known-effects", "magic"], "'magic' is not an effect"),
+        (["{bags}/coast", "--known-effects", " ,"], "--known-effects  , names no effect"),
         (["{bags}/coast", "--topic-namespace", "left"], "/left/motor/speed"),
         (["{bags}/coast", "--start", "3", "--stop", "2"], "must be before"),
         (["{bags}/coast", "--output", "{tmp}/no/model.yaml"], "cannot write {tmp}/no/model.yaml"),

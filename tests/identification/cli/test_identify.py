@@ -125,6 +125,7 @@ def test_a_recording_that_cannot_answer_is_one_sentence(
     [
         (["{tmp}/nowhere"], "There is no bag"),
         (["{bag}", "--effects", "magic"], "'magic' is not an effect; the effects are coulomb_friction,"),
+        (["{bag}", "--effects", ",,"], "--effects ,, names no effect: name some, or leave it out"),
         (["{bag}", "--topic-namespace", "left"], "/left/motor/speed"),
         (["{bag}", "{bag}/../bag"], "is given twice: name every bag once."),
         (["{bag}", "--start", "3", "--stop", "2"], "must be before"),
