@@ -24,6 +24,9 @@ FEWEST_ROWS = 20  # that show it
 AGAINST = 0.2  # correlation of a position's steps with the drive that holds it
 IDLE, FEWEST_IDLE = 0.1, 5  # of the largest drive, below which nothing drives, and rows of it that tell something
 HELD = 0.5  # of the largest count, where counts that go on may stand then
+# Rows in which a position stays where a loop's dead band left it, and how many counts that is at least: so many of one
+# row, each under one drive, are not the same in all of them, as no speed is a whole number of counts a row.
+FEWEST_SAME, MANY_COUNTS = 20, 20.0
 _PER_ROW = words_of("delta diff increment increments inc incremental")
 
 
@@ -65,14 +68,30 @@ def _is_position_in_a_loop(values: Floats, drive: Floats) -> bool:
     """Whether counts, shape (K,), are held somewhere by a drive that falls as they rise, as by Kp (r - y).
 
     Counts of one row that fall as the drive rises are those of a motor with its sensor the other way round: they go
-    back with it, and come to 0 where nothing drives.
+    back with it, and come to 0 where nothing drives. What was logged before anything drove tells nothing.
     """
+    if _stays_in_dead_band(values, drive):
+        return True
     if correlate(values, drive) >= 0.0:
         return False
     if correlate(np.diff(values), drive[:-1]) > AGAINST:
         return True
     idle = np.abs(values[np.abs(drive) <= IDLE * np.max(np.abs(drive))])
     return len(idle) >= FEWEST_IDLE and bool(np.median(idle) > HELD * np.max(np.abs(values)))
+
+
+def _stays_in_dead_band(values: Floats, drive: Floats) -> bool:
+    """Whether counts, shape (K,), come to stay at one number as a drive without a sign, or with one, falls to little.
+
+    As under Kp |r - y|, with the sign on another wire: what is left of it does not overcome friction.
+    """
+    begin = int(np.argmax(drive != 0.0))
+    values, drive = values[begin:], drive[begin:]
+    changes = np.flatnonzero((np.diff(values) != 0.0) | (np.diff(drive) != 0.0))
+    same = len(values) - 1 - (int(changes[-1]) if len(changes) else -1)
+    if same < FEWEST_SAME or len(values) - same < 2 or abs(values[-1]) < MANY_COUNTS or drive[-1] == 0.0:
+        return False
+    return bool(abs(drive[-1]) < np.max(np.abs(drive))) and correlate(values, np.abs(drive)) < 0.0
 
 
 def _explained(steps: Floats, *by: Floats) -> float:

@@ -64,6 +64,23 @@ def test_a_position_that_a_loop_holds_goes_on(gain: float, fast: float, quick: f
     assert not notes.findings and not notes.questions
 
 
+@pytest.mark.parametrize("signed", [True, False])
+def test_a_position_that_stays_in_the_dead_band_goes_on(signed: bool) -> None:
+    """After a wait, u = Kp (135 - y), with or without its sign, until friction holds the motor below the target."""
+    counts, drives, speed, angle = [], [], 0.0, 0.0
+    for row in range(400):
+        counts.append(np.floor(angle))
+        wanted = float(np.clip(15.0 * (135.0 - counts[-1]), -255.0, 255.0)) if row >= 200 else 0.0
+        drives.append(wanted if signed else abs(wanted))
+        speed += ((0.05 * wanted if abs(wanted) > 140.0 else 0.0) - speed) * 0.15
+        speed = speed if abs(speed) > 0.3 else 0.0
+        angle += speed
+    table = Table(Path("log.csv"), np.arange(400), {"u": np.array(drives), "ticks": np.array(counts)})
+    notes = Notes([], [])
+    assert not count_anew(table, Pair("", "u", "ticks"), Said(), notes)
+    assert not notes.findings and not notes.questions
+
+
 def test_counts_of_one_row_from_a_sensor_the_other_way_round() -> None:
     table, notes = Table(Path("log.csv"), np.arange(len(DRIVE)), {"u": DRIVE, "ticks": -FAST}), Notes([], [])
     assert count_anew(table, Pair("", "u", "ticks"), Said(), notes)
