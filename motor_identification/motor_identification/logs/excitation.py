@@ -10,6 +10,7 @@ from motor_identification.logs.run import Run
 from motor_model.sample import Measurement
 
 STANDING = 0.01  # of the largest speed: below, the motor stands
+FASTER = 0.03  # of the largest speed, that a motor comes to the other way: less is the noise of its rest
 ALIKE = 0.02  # of the largest voltage, within which two levels are one
 MOSTLY = 0.5  # of the rows: standing for longer is worth a word
 FULL = 0.98  # of the full voltage, from which on it is at its limit
@@ -41,8 +42,8 @@ def measure_excitation(log: Log) -> Excitation:
         low=float(voltage.min()),
         high=float(voltage.max()),
         levels=_levels(voltage, ALIKE * largest),
-        forward=float(np.mean(~still & (speed > 0.0))),
-        backward=float(np.mean(~still & (speed < 0.0))),
+        forward=_share(speed, still, top),
+        backward=_share(-speed, still, top),
         standing=float(np.mean(still)),
         full=float(np.mean(np.abs(voltage) >= FULL * log.info.max_voltage)),
     )
@@ -91,6 +92,11 @@ def hardly_moves(log: Log) -> bool:
 
 def _stands(found: Excitation) -> bool:
     return found.forward + found.backward < FEW
+
+
+def _share(speed: NDArray[np.float64], still: NDArray[np.bool_], top: float) -> float:
+    """The share of the rows (K,) in which a motor runs forward; 0 where that is never more than noise."""
+    return float(np.mean(~still & (speed > 0.0))) if np.max(speed) > FASTER * top else 0.0
 
 
 def _column(run: Run, name: str) -> NDArray[np.float64]:

@@ -1,6 +1,7 @@
 """The drive of a log of one step that has no column of it: so many volts where the user says so, once the motor moves.
 
-A log that begins before its step shows a motor that stands much longer than it then takes to come up to its speed.
+A log that begins before its step shows a motor that stands much longer than it then takes to come up to its speed, or
+until the time 0 of an oscilloscope that was triggered, or until whoever asks says.
 """
 
 from dataclasses import replace
@@ -9,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_identification.logs.csv.table import Table
-from motor_identification.logs.form import CsvForm, Kind
+from motor_identification.logs.form import CsvForm, Kind, time_unit_size
 
 Floats = NDArray[np.float64]
 
@@ -31,19 +32,38 @@ def wait_for_motion(table: Table, form: CsvForm) -> Table:
     if form.voltage != CONSTANT or form.split or form.time is None:
         return table
     motion = table.numbers(form.motion)
+    if form.rest_until is not None and (rested := _count_rows_at_rest(table, form, motion, form.rest_until)):
+        note = f"Left out: the first {rested} rows, in which the motor stands until {form.rest_until:g} s, as was said."
+        return table.rows(np.arange(len(table)) >= rested, note)
     if form.kind is Kind.SPEED:
         standing = count_standing_rows(motion)
     else:
         standing = count_standing_rows(_differentiate(motion, table.numbers(form.time)), _count_slow_rows(motion))
-    if not standing:
-        return table
-    voltage = table.numbers(CONSTANT).copy()
-    voltage[: standing - 1] = 0.0
     note = (
         f"The motor stands in the first {standing} rows, longer than any delay: its voltage is taken to come in the "
         "last of them, and a delay is not to be had from it."
     )
+    without = standing - 1
+    if not standing:
+        without = 0 if form.rest_until is not None else _count_rows_at_rest(table, form, motion, 0.0)
+        note = (
+            f"The clock begins before 0 s, as that of an oscilloscope before its trigger, and the motor stands until "
+            f"then, {without} rows: its voltage is taken to come at 0 s (assumed; otherwise: --rest-until)."
+        )
+    if without <= 0:
+        return table
+    voltage = table.numbers(CONSTANT).copy()
+    voltage[:without] = 0.0
     return replace(table, cells={**table.cells, CONSTANT: voltage}, notes=(*table.notes, note))
+
+
+def _count_rows_at_rest(table: Table, form: CsvForm, motion: Floats, until: float) -> int:
+    """Count the first rows, before a time [s], if a motor stands in all of them; 0 where it moves, or they are few."""
+    time = table.nanoseconds(form.time or "", time_unit_size(form.time_unit))
+    before = int(np.argmax(time >= round(until * 1e9))) if np.any(time >= round(until * 1e9)) else 0
+    if before < FEWEST_ROWS or np.any(np.diff(time) < 0):
+        return 0
+    return before if np.ptp(motion[:before]) <= STANDS * np.ptp(motion) else 0
 
 
 def count_standing_rows(speed: Floats, slow: int = 1) -> int:

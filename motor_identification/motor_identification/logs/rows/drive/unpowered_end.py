@@ -3,7 +3,7 @@
 import numpy as np
 
 from motor_identification.logs.form import CsvForm, Kind
-from motor_identification.logs.rows.drive.constant_voltage import CONSTANT
+from motor_identification.logs.rows.drive.constant_voltage import CONSTANT, STANDS
 from motor_identification.logs.rows.drive.unpowered_start import (
     HALF,
     MOSTLY,
@@ -35,6 +35,8 @@ def drop_unpowered_end(signals: Signals, form: CsvForm) -> tuple[Signals, list[s
     for run in signals.runs.values():
         volts, motion = np.abs(signals.voltage[run]), signals.motion[run]
         every, said_alone = len(volts), form.voltage == CONSTANT
+        if said_alone and form.kind is Kind.SPEED:  # of which noise is no motion
+            motion = np.where(np.abs(motion) > STANDS * np.max(np.abs(motion)), motion, 0.0)
         if said_alone and (again := _count_rows_until_restart(volts, motion, form.kind)):
             volts, motion = volts[:again], motion[:again]
         ran = _count_rows_until_rest(motion, form.kind)

@@ -77,6 +77,37 @@ def test_a_log_that_begins_before_its_step(tmp_path: Path, position: bool) -> No
     assert any("stands in the first 10" in line for line in imported.motors[0].log.findings)
 
 
+@pytest.mark.parametrize("rest_until", [None, 0.0])
+@pytest.mark.parametrize("position", [False, True])
+def test_an_oscilloscope_that_was_triggered(tmp_path: Path, rest_until: float | None, position: bool) -> None:
+    """Its clock begins before 0 s, and its noise while the motor stands is no motion that comes to rest."""
+    time = 0.0002 * np.arange(-490, 2010)
+    noise = -0.8 * (np.random.default_rng(3).random(len(time)) < 0.25)
+    speed = np.round(75.0 * (1.0 - np.exp(-np.maximum(time, 0.0) / 0.09)) / 0.8) * 0.8 + noise
+    name, motion = ("pos_deg", np.round(np.cumsum(speed))) if position else ("speed", speed)
+    path = tmp_path / "log.csv"
+    path.write_text("\n".join([f"time_s,{name}", *(f"{t:.4f},{v:g}" for t, v in zip(time, motion, strict=True))]))
+    said = Said(constant_voltage=60.8, rest_until=rest_until, unit="deg" if position else "rad/s")
+    imported = import_log(path, said)
+    (run,) = imported.motors[0].log.runs
+    volts = np.array([sample.voltage for sample in run.samples])
+    findings = " ".join((*imported.findings, *imported.motors[0].log.findings))
+    assert "comes to rest" not in findings and "turned round" not in findings and "both ways" not in findings
+    if rest_until is None:
+        assert "the motor stands until then, 490 rows" in findings
+        assert np.count_nonzero(volts) == 2010 and not np.any(volts[:490])
+    else:
+        assert "Left out: the first 490 rows, in which the motor stands until 0 s" in findings
+        assert len(volts) == 2010 and set(volts) == {60.8}
+
+
+def test_a_motor_that_moves_before_the_rest_ends_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "log.csv"
+    path.write_text("\n".join(["time_s,speed_rpm", *(f"{t:g},{v:g}" for t, v in zip(TIME, SPEED, strict=True))]))
+    with pytest.raises(RecordingError, match=r"before --rest-until 0\.5"):
+        import_log(path, Said(constant_voltage=9.0, rest_until=0.5))
+
+
 @pytest.mark.parametrize(("late", "stands"), [(0.03, False), (1.0, True)])
 def test_a_slow_motor_of_coarse_counts_has_not_risen_with_its_first(tmp_path: Path, late: float, stands: bool) -> None:
     """Less than a count a row, a time constant of 60 ms: rows are 4 ms apart, and 30 ms may be a delay."""
