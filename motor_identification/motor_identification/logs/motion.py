@@ -19,7 +19,7 @@ from motor_identification.logs.rows.drive.one_channel import ONE_CHANNEL, find_w
 from motor_identification.logs.rows.drive.own_counts import take_fed_back
 from motor_identification.logs.rows.flicker import remove_flicker
 from motor_identification.logs.rows.resets import split_at_resets
-from motor_identification.logs.rows.row_lengths import divide_by_own_rows
+from motor_identification.logs.rows.row_lengths import divide_by_own_rows, find_window
 from motor_identification.logs.rows.speed_sign import give_signs
 from motor_identification.logs.rows.swapped_sign import turn_round
 from motor_identification.logs.rows.wraps import unwrap
@@ -95,7 +95,8 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
     if few and summing:
         counted = _count_rows(form, info, signals, one)
         return replace(counted, findings=(*signs, *turned, *means, *counted.findings))
-    window = form.speed_window or info.sample_period
+    usual, uneven = find_window(signals, info.sample_period)
+    window = form.speed_window or usual
     lag = 0.5 * window if form.speed_lag is None else form.speed_lag
     edges = form.edges_per_revolution or 0
     if form.count_quantum:
@@ -105,11 +106,13 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
     if edges:
         edges, smoothed = _confirm_edges(form, signals, edges, edge_angle(edges, form.gear) / window / unit, window)
     info = replace(info, measurement=Measurement.SPEED, speed_window=window, speed_lag=lag, edges_per_revolution=edges)
-    assumed = "" if form.speed_window else " (assumed: one sample period; otherwise: --speed-window)"
+    row = "a row of the shortest" if uneven else "one sample period"
+    assumed = "" if form.speed_window else f" (assumed: {row}; otherwise: --speed-window)"
     placed = "" if form.speed_lag is not None else " (assumed: the window ends there; otherwise: --speed-lag)"
     findings = (
         f"Speeds without counts: each is the mean over {window * 1e3:.4g} ms{assumed}.",
         f"The middle of that window is {lag * 1e3:.4g} ms before the row's time{placed}.",
+        *([uneven] if uneven and not form.speed_window else []),
         *(smoothed or [_about_count(form, signals, edges, window)]),
         *lengths,
         *signs,

@@ -19,6 +19,7 @@ MOST_ROWS = 20_000  # that the motion is looked at in
 IRREGULAR = 0.01  # of a row: standard deviation of the rows' lengths that matters
 FASTEST = 0.5  # quantile of the speed, above which rows tell of their lengths
 TRUSTED = 0.9  # quantile of the scatter that counts: where the voltage jumps no parabola follows
+PARTS, FEWEST_A_PART, LONGER = 8, 5, 3.0  # of a log; rows of each; times as long as in another, no jitter but a change
 BETTER = 0.85  # of the scatter that speeds leave as they are: less is left by those of their own rows
 
 
@@ -45,6 +46,31 @@ def divide_by_own_rows(signals: Signals, wanted: bool | None = None) -> tuple[Si
         "which the motion follows (assumed; otherwise: --no-nominal-period)."
     )
     return replace(signals, motion=motion), [said]
+
+
+def find_window(signals: Signals, period: float) -> tuple[float, str]:
+    """Find the window [s] of speeds that nobody said: a row, if they are about as long in every part of a log.
+
+    Else the shortest part's, and a caution: a device that measures speeds does it for a time of its own, which no row
+    that has a new one is shorter than.
+
+    Args:
+        signals: the rows.
+        period: the usual length of a row [s].
+    """
+    shortest, longest = np.inf, 0.0
+    for run in signals.runs.values():
+        steps = np.diff(signals.time[run]) * 1e-9
+        usual = [float(np.median(part)) for part in np.array_split(steps, PARTS) if len(part) >= FEWEST_A_PART]
+        if usual and max(usual) >= LONGER * min(usual):  # whole runs may have rows of their own: readers look at those
+            shortest, longest = min(shortest, *usual), max(longest, *usual)
+    if not longest:
+        return period, ""
+    return shortest, (
+        f"Caution: rows take {1e3 * shortest:.4g} ms in one part of the log and {1e3 * longest:.4g} ms in another: no "
+        "window of one row fits all speeds, and that of the shortest is assumed. Say for how long a speed is measured "
+        "(--speed-window), or take a position (--position)."
+    )
 
 
 def divide_by_regular_rows(stamped: Signals, regular: Signals) -> tuple[Signals, list[str]]:

@@ -11,7 +11,7 @@ from position_rows import rows
 from motor_identification.logs.form import CsvForm, Kind
 from motor_identification.logs.log import read_log
 from motor_identification.logs.rows import row_lengths
-from motor_identification.logs.rows.row_lengths import divide_by_own_rows, divide_by_regular_rows
+from motor_identification.logs.rows.row_lengths import divide_by_own_rows, divide_by_regular_rows, find_window
 from motor_identification.logs.signals import Signals
 
 Floats = NDArray[np.float64]
@@ -120,3 +120,29 @@ def test_speeds_by_other_rows_than_their_stamps_are_left() -> None:
     assert divide_by_regular_rows(noisy, replace(regular, motion=noisy.motion))[1] == []
     assert divide_by_regular_rows(stamped, stamped)[1] == []
     assert divide_by_regular_rows(stamped.only(np.arange(ROWS) > 0), regular)[1] == []
+
+
+@pytest.mark.parametrize(("times", "fits"), [(1.0, True), (2.9, True), (3.1, False), (27.0, False)])
+def test_no_window_fits_rows_that_become_many_times_longer(times: float, fits: bool) -> None:
+    """Jitter is none of that: the parts of a log are compared."""
+    lengths = np.repeat([PERIOD, times * PERIOD], 100) * np.tile([0.2, 1.0, 1.8, 1.0], 50)
+    time = np.append(0.0, np.cumsum(lengths))
+    window, said = find_window(signals(time, travel(time)), 0.03)
+    assert window == pytest.approx(0.03 if fits else PERIOD)
+    assert bool(said) is not fits and ("--speed-window" in said) is not fits
+    apart = replace(signals(time, travel(time)), runs={"1": slice(0, 101), "2": slice(101, len(time))})
+    assert find_window(apart, 0.03) == (0.03, "")
+
+
+@pytest.mark.parametrize("window", [None, 0.05])
+def test_the_shortest_rows_are_a_window_that_nobody_said(tmp_path: Path, window: float | None) -> None:
+    """A ramp of the voltage with rows of 36 ms, and one of 1 s: each has a speed of the last 50 ms."""
+    time = np.append(0.0, np.cumsum(np.repeat([0.036, 1.0], 40)))
+    volts = np.append(np.arange(41) % 41, np.arange(40)) * 0.3
+    path = tmp_path / "log.csv"
+    path.write_text("t,u,w\n" + "".join(f"{t},{u:.4g},{2.1234 * u:.7g}\n" for t, u in zip(time, volts, strict=True)))
+    log = read_log(path, replace(FORM, speed_window=window))
+    text = " ".join(log.findings)
+    assert log.info.speed_window == pytest.approx(window or 0.036)
+    assert ("Caution: rows take 36 ms in one part" in text) is (window is None)
+    assert ("assumed: a row of the shortest" in text) is (window is None)
