@@ -113,6 +113,11 @@ class SlotTable:
         return np.asarray((half + half.T)[:-1, :-1])
 
     @property
+    def may_be_off(self) -> bool:
+        """Whether a table has any shape but those that it may not have: that of a single slot has none."""
+        return self.index.size // 2 > (1 if self.first_harmonic else 3)
+
+    @property
     def _filter(self) -> tuple[Bools, Floats, Floats, Integers, Integers]:
         return self.whitening.fresh, self.whitening.gain, self.whitening.scale, self.index.first, self.index.last
 
@@ -176,10 +181,11 @@ def estimate_slot_variance(table: SlotTable, white: Floats, guess: float, most: 
     """Estimate the variance σ² [rad²] of the seen slots' offsets, by expectation maximisation on white residuals (I,).
 
     It stays below `most` [rad²]: what is beyond any real disc is an error of the model, and shall not pass for noise.
-    Where no slot is seen, as in a few edges of which none follow each other, the guess is all there is.
+    Where no slot is seen, as in a few edges of which none follow each other, or a disc has so few that none of them may
+    be off, the guess is all there is.
     """
     count = np.count_nonzero(table.seen)
-    if count == 0:
+    if count == 0 or not table.may_be_off:
         return guess
     solver, scores = table.solver, table.scores(white)
     variance, coordinates = guess, None

@@ -194,3 +194,15 @@ def test_a_disc_of_a_thousand_slots_in_a_second_that_shows_a_third_of_them() -> 
         relative = fit.standard_errors[name] / true
         assert least < relative < most
         assert abs(fit.parameters.value(name) / true - 1.0) < 4.0 * relative
+
+
+@pytest.mark.parametrize(("slots", "first_harmonic"), [(1, True), (1, False), (2, False), (3, False)])
+def test_a_disc_of_so_few_slots_that_none_may_be_off_leaves_the_guess(slots: int, first_harmonic: bool) -> None:
+    """Its mean is the starting angle, its first harmonic an eccentricity: a variance of 0 would be divided by."""
+    count = 40
+    at = np.arange(count + 1) % slots
+    noise = AngleNoise(np.arange(count) == 0, *np.full((2, count), 1e-4), np.full(count, 1e-2))
+    table = SlotTable(make_whitening(noise, 0.0), SlotIndex(at[:-1], at[1:], 2 * slots), first_harmonic)
+    white = np.random.default_rng(slots).normal(size=count)
+    assert estimate_slot_variance(table, white, 1e-4, 1e-2, 40) == 1e-4
+    assert np.abs(Projection(table, 1e-4).best(white)).max() < 1e-6
