@@ -125,8 +125,8 @@ def _apply_law(config: Config, run: Run, sample: Sample, demand: Demand, hold: b
         place=place,
         rests=rests,
     )
-    reason = _explain(config, run, after, allowed, terms) or aim.note or note
-    warning = ignored > IGNORED_TIME or bool(note or aim.note)
+    reason = (not aim.note and trouble.warning) or _explain(config, run, after, allowed, terms) or aim.note or note
+    warning = ignored > IGNORED_TIME or bool(note or aim.note or trouble.warning)
     return Output(RUNNING, reason, target.reference, speed, terms, sigma, innovation, warning, fault), after
 
 

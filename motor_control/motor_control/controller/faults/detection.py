@@ -17,7 +17,7 @@ from motor_control.controller.faults import (
     stall,
     unexpected_edges,
 )
-from motor_control.controller.faults.direction import implied_load, plugging, pulses, runaway, to_and_fro
+from motor_control.controller.faults.direction import implied_load, plugging, pulses, runaway, to_and_fro, unslowed
 from motor_control.controller.faults.evidence import Config, Seen
 
 
@@ -43,6 +43,12 @@ class State:
     gaining: acceleration.State = acceleration.State()
     trembling: to_and_fro.State = to_and_fro.State()
     left: held_speed.State = held_speed.State()
+    coasting: unslowed.State = unslowed.State()
+
+    @property
+    def warning(self) -> str:
+        """What speaks for a fault, and not as clearly as a stop needs, as a sentence."""
+        return self.coasting.warning
 
 
 def begin(speed: float, before: State | None = None) -> State:
@@ -79,6 +85,7 @@ def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     quick, gaining = acceleration.check(config, state.gaining, seen)
     nowhere, trembling = to_and_fro.check(config, state.trembling, seen)
     slower, left = held_speed.check(config, state.left, seen)
+    on, coasting = unslowed.check(config, state.coasting, seen)
     found = (
         quick,
         nowhere,
@@ -98,6 +105,7 @@ def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
         same,
         loose,
         slower,
+        on,
     )
     return next((one for one in found if one), ""), State(
         stalled,
@@ -118,4 +126,5 @@ def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
         gaining,
         trembling,
         left,
+        coasting,
     )
