@@ -15,14 +15,14 @@ from functools import partial
 from pathlib import Path
 
 from faults_clock import HOUR, SetClock
-from faults_held_up import BOTH, CONTROLLER, LONG, PLANT, SHORT, HeldUp
+from faults_held_up import BOTH, CONTROLLER, LONG, PLANT, SHORT, HeldUp, cut_supply
 from faults_live_stage import MOTOR, Stage, stage
 from faults_loop import Outcome, outcome
 from faults_twice import end_first, end_second, launch_both, launch_twice
 from geometry_msgs.msg import Twist
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Header
-from std_srvs.srv import SetBool
+from std_srvs.srv import SetBool, Trigger
 from workbench import program
 
 from motor_msgs.msg import MotorSpeed, MotorVoltage
@@ -226,6 +226,25 @@ def restart_plant(stage: Stage) -> None:
     stage.until(lambda: len(stage.moments) > count, "the plant again")
 
 
+def release_second_stream(stage: Stage) -> None:
+    """`motor/release`, while a second stream goes on that will pass the number at which the first one fell silent."""
+    stage.plant()
+    stage.controller("", "-p", "reference_timeout:=0.0")
+    stage.until(lambda: bool(stage.said) and len(stage.moments) > 50, "the loop")
+    for messages in (60, 30):  # one second later it is where the first one was
+        reference = stage.bench.publisher(Float64, "motor/reference", qos.REFERENCE)
+        stage.bench.heard(reference)
+        timer = stage.bench.node.create_timer(0.05, partial(reference.publish, Float64(data=0.5 * MOTOR.top)))
+        stage.hear(0.05 * messages)
+        if messages == 60:
+            timer.cancel()
+            stage.bench.node.destroy_publisher(reference)
+            stage.hear(1.0)
+    client = stage.bench.node.create_client(Trigger, "motor/release")
+    stage.until(client.service_is_ready, "motor/release")
+    stage.until(client.call_async(Trigger.Request()).done, "the answer")
+
+
 def restart_controller(stage: Stage) -> None:
     """A controller is killed and started again, as by systemd, and references keep coming."""
     _drive_by_stream(stage)
@@ -282,6 +301,8 @@ LIVE_FAULTS = (
     LiveFault("samples are another plant's, references keep coming", drive_by_another_plant, "would be driven"),
     LiveFault("one of two controllers in another namespace, references", start_in_another_namespace, "nobody hears"),
     LiveFault("a controller that hears no motor/info, references", remap_info, "Nobody publishes"),
+    LiveFault("`motor/release`, the second of two streams of references goes on", release_second_stream, "begin again"),
+    LiveFault("supply off for 2 s, the controller held up for 45 ms each 0.3 s", cut_supply, "Call motor/reset"),
     LiveFault("a plant is started again, 50 references a second keep coming", restart_plant, "begin again"),
     LiveFault(
         "a controller is killed and started again, 50 references a second keep coming", restart_controller, "They began"
