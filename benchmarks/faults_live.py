@@ -291,7 +291,7 @@ LIVE_FAULTS = (
         )
         for kind, topic in (("voltage", "motor/voltage"), ("joint", "motor/joint_command"))
     ),
-    LiveFault("`experiment` stopped for 1.5 s (Ctrl-Z), and goes on", resume_experiment, "The samples stopped"),
+    LiveFault("`experiment` stopped for 1.5 s (Ctrl-Z), and goes on", resume_experiment, "No sample was answered for"),
     LiveFault("`experiment`, whose disk is full in mid-run", fill_disk, "cannot be written", KNOWN_AT_WRITING),
     LiveFault("a controller stopped for 1.5 s, a reference meanwhile", refer_to_stopped_controller, "stood still"),
     LiveFault("a plant stopped for 1.5 s, a voltage meanwhile", command_stopped_plant, "held up"),

@@ -11,7 +11,7 @@ from rclpy.node import Node
 from rclpy.time import Time
 
 from motor_identification.experiment import Plan, make_plan
-from motor_identification.live.plant_watch import Asked, PlantWatch
+from motor_identification.live.plant_watch import Asked, Listener, PlantWatch
 from motor_model.errors import MotorError
 from motor_model.excitation import Profile
 from motor_model.sample import Info, Sample
@@ -20,7 +20,6 @@ from motor_ros import qos
 from motor_ros.graph.publishers import NAMELESS, count_publishers, publishers_of
 from motor_ros.messages import info_of, sample_of, voltage_message
 
-SILENCE = 1.0  # [s] without samples after which the plant is gone
 QUEUED = 0.5  # [s] after which no sample from before can come out of the queue any more
 LEAST = 0.02  # of max_voltage: a command that any bridge can follow
 ARRIVAL = 0.5  # [s] for the last command to arrive
@@ -50,6 +49,7 @@ class Driver(Node):
         self._asked = 0.0  # [V] the latest command
         self._stamp = Stamp()  # of the latest sample, which its answer has, too: the plant's computer has its own time
         self._plant = PlantWatch(limit or inf)
+        self._listener = Listener()
         self.plant_says = ""  # what the plant's diagnostics said since its output is off
         self._voltage = self.create_publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
         self.create_subscription(MotorInfo, "motor/info", self._on_info, qos.INFO)
@@ -80,11 +80,12 @@ class Driver(Node):
 
     def failed(self) -> bool:
         """Whether the plant has stopped sending samples, is not alone, or there is another problem."""
+        self._listener, silence = self._listener.look(self.heard, self.elapsed, time.monotonic())
         plants = count_publishers(self, "motor/speed")
         if plants > 1:
             self.problem = f"{plants} nodes publish motor/speed: stop all but the plant that is to be driven."
-        elif self.heard is not None and time.monotonic() - self.heard > SILENCE:
-            self.problem = f"The samples stopped after {self.elapsed:.2f} s: is the plant still running?"
+        elif silence and not self.problem:
+            self.problem = silence
         return bool(self.problem)
 
     def _on_info(self, message: MotorInfo) -> None:

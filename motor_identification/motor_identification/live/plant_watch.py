@@ -5,9 +5,11 @@ from math import inf
 
 DEAF = 0.5  # [s] without any voltage, while there should be one, after which the output is off
 HELD_UP = 1.0  # [s] from one sample to the next, after which nobody expects the motor to go on by itself
+SILENCE = 1.0  # [s] without samples after which the plant is gone, or nobody has listened
 TOO_FAST = 2  # samples in a row: a single one may be a flank that came early
 OUTPUT_OFF = "The plant's output is off: call motor/enable with data: true"
 STEPPED_BACK = "The plant's clock stepped back after {:.2f} s: was it restarted, or are there two?"
+GONE = "The samples stopped after {:.2f} s: is the plant still running?"
 PAUSED = (
     "No sample was answered for {:.1f} s after {:.2f} s, in which the motor got 0 V: the command or this computer was "
     "stopped (Ctrl-Z, suspended) or held up. Start anew."
@@ -53,3 +55,21 @@ class PlantWatch:
             if now - deaf_since > DEAF:
                 problem = f"{OUTPUT_OFF}."
         return PlantWatch(self.limit, time, now, too_fast, deaf_since), problem
+
+
+@dataclass(frozen=True, slots=True)
+class Listener:
+    """When the command has looked for samples: one that stands still hears none, and cannot say that none came."""
+
+    looked: float | None = None  # [s] on the caller's clock
+    heard: float | None = None  # [s] on it, when the latest sample came; None: none has yet
+    away: float = 0.0  # [s] the longest from look to look since then
+
+    def look(self, heard: float | None, elapsed: float, now: float) -> tuple["Listener", str]:
+        """Look at `now`; what is wrong stands beside it: elapsed [s] of the plan, if no sample came for SILENCE."""
+        gap = now - self.looked if self.looked is not None and heard == self.heard else 0.0
+        away, silent = (max(self.away, gap) if heard == self.heard else 0.0), 0.0 if heard is None else now - heard
+        problem = ""
+        if silent > SILENCE:
+            problem = PAUSED.format(silent, elapsed) if away > 0.5 * silent else GONE.format(elapsed)
+        return Listener(now, heard, away), problem

@@ -5,7 +5,7 @@ from math import nan
 
 import pytest
 
-from motor_identification.live.plant_watch import DEAF, HELD_UP, Asked, PlantWatch
+from motor_identification.live.plant_watch import DEAF, HELD_UP, SILENCE, Asked, Listener, PlantWatch
 
 ASKED = Asked(6.0, True, 1.5)
 PERIOD = 5_000_000  # [ns]
@@ -56,3 +56,36 @@ def test_a_motor_that_stood_does_not_go_on_by_itself(ours: float, plants: float)
         problem = watch.see(time, 0.0, 0.0, ASKED, now)[1]
         assert problem.startswith("No sample was answered for 1.0 s after 1.50 s") is (longer > 1.0)
         assert replace(watch, seen=None).see(time, 0.0, 0.0, ASKED, now)[1] == ""
+
+
+def listen(looks: list[float], heard: float = 10.0) -> str:
+    """What is said at the last of these looks [s], if the latest sample came at `heard`."""
+    listener, problem = Listener(), ""
+    for now in looks:
+        assert problem == ""
+        listener, problem = listener.look(heard, 0.5, now)
+    return problem
+
+
+def test_who_stood_still_himself_does_not_blame_the_plant() -> None:
+    """Stopped (SIGSTOP) for 2 s, it said that the plant's samples had stopped, and asked whether it was running."""
+    said = listen([10.0, 10.02, 12.02])
+    assert said.startswith("No sample was answered for 2.0 s after 0.50 s") and "the command or this computer" in said
+    assert listen([10.0, 10.02, 10.6, 11.1]).startswith("No sample was answered for 1.1 s")  # half of it and more
+
+
+def test_a_plant_that_falls_silent_while_it_is_listened_to_is_blamed() -> None:
+    looks = [10.0 + 0.02 * k for k in range(51)]
+    assert listen(looks) == "" and looks[-1] == 10.0 + SILENCE
+    assert listen([*looks, 11.02]) == "The samples stopped after 0.50 s: is the plant still running?"
+    assert listen([10.0, 10.4, 10.8, 11.1]).startswith("The samples stopped")  # held up for less than half of it
+
+
+def test_a_pause_before_the_latest_sample_is_over() -> None:
+    listener, _ = Listener().look(10.0, 0.5, 10.0)
+    listener, problem = listener.look(12.0, 0.5, 12.0)
+    assert problem == "" and listener.away == 0.0
+    assert Listener().look(None, 0.0, 99.0)[1] == ""
+    for k in range(51):
+        listener, problem = listener.look(12.0, 0.5, 12.0 + 0.02 * k)
+    assert listener.look(12.0, 0.5, 13.02)[1].startswith("The samples stopped")
