@@ -309,6 +309,18 @@ def test_an_attempt_that_failed_leaves_its_name_to_the_next(stand: Stand) -> Non
     assert stand.experiment("step") == 0 and stand.recorded() > 1.0
 
 
+def test_an_experiment_that_stood_still_itself_does_not_blame_the_plant(stand: Stand) -> None:
+    def stand_still(driver: Driver) -> bool:
+        if turning(driver):
+            time.sleep(1.5)
+            driver.failed()  # the first thing that it does when it goes on
+        return False
+
+    with pytest.raises(MotorError, match=r"^No sample was answered for 1\.\d s after 0\.\d+ s, in which the motor got"):
+        stand.experiment("step", stand_still)
+    stand.assert_stopped()
+
+
 def test_a_plant_that_is_switched_off_and_then_lost(stand: Stand) -> None:
     assert stand.bench.call(SetBool, "motor/enable", SetBool.Request(data=False)).success
     with pytest.raises(

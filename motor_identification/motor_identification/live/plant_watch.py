@@ -67,8 +67,10 @@ class Listener:
 
     def look(self, heard: float | None, elapsed: float, now: float) -> tuple["Listener", str]:
         """Look at `now`; what is wrong stands beside it: elapsed [s] of the plan, if no sample came for SILENCE."""
-        gap = now - self.looked if self.looked is not None and heard == self.heard else 0.0
-        away, silent = (max(self.away, gap) if heard == self.heard else 0.0), 0.0 if heard is None else now - heard
+        if heard is None:
+            return Listener(now), ""
+        gap = now - max(heard, self.looked or heard)
+        away, silent = max(gap, self.away if heard == self.heard else 0.0), now - heard
         problem = ""
         if silent > SILENCE:
             problem = PAUSED.format(silent, elapsed) if away > 0.5 * silent else GONE.format(elapsed)

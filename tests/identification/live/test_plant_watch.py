@@ -63,7 +63,7 @@ def listen(looks: list[float], heard: float = 10.0) -> str:
     listener, problem = Listener(), ""
     for now in looks:
         assert problem == ""
-        listener, problem = listener.look(heard, 0.5, now)
+        listener, problem = listener.look(min(heard, now), 0.5, now)
     return problem
 
 
@@ -72,6 +72,7 @@ def test_who_stood_still_himself_does_not_blame_the_plant() -> None:
     said = listen([10.0, 10.02, 12.02])
     assert said.startswith("No sample was answered for 2.0 s after 0.50 s") and "the command or this computer" in said
     assert listen([10.0, 10.02, 10.6, 11.1]).startswith("No sample was answered for 1.1 s")  # half of it and more
+    assert listen([9.99, 12.0]).startswith("No sample was answered for 2.0 s")  # from just after the latest sample on
 
 
 def test_a_plant_that_falls_silent_while_it_is_listened_to_is_blamed() -> None:
