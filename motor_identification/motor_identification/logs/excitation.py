@@ -11,6 +11,7 @@ from motor_model.sample import Measurement
 
 STANDING = 0.01  # of the largest speed: below, the motor stands
 FASTER = 0.03  # of the largest speed, that a motor comes to the other way: less is the noise of its rest
+CHANGES = 0.5  # of the largest voltage, whose change no speed that turns stays the same in
 ALIKE = 0.02  # of the largest voltage, within which two levels are one
 MOSTLY = 0.5  # of the rows: standing for longer is worth a word
 FULL = 0.98  # of the full voltage, from which on it is at its limit
@@ -36,8 +37,9 @@ def measure_excitation(log: Log) -> Excitation:
     voltage = np.concatenate([_column(run, "voltage") for run in log.runs])
     speed = np.concatenate([_column(run, "speed") for run in log.runs])
     top = float(np.quantile(np.abs(speed), 0.99))
-    still = np.abs(speed) <= STANDING * top if top > 0.0 else np.ones(len(speed), np.bool_)
     largest = float(np.max(np.abs(voltage)))
+    stale = np.ptp(speed) == 0.0 and np.ptp(voltage) > CHANGES * largest  # a sensor shows its last one
+    still = np.ones(len(speed), np.bool_) if stale or top <= 0.0 else np.abs(speed) <= STANDING * top
     return Excitation(
         low=float(voltage.min()),
         high=float(voltage.max()),

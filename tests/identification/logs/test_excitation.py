@@ -75,6 +75,12 @@ def test_a_motor_that_mostly_stands(standing: int, said: bool) -> None:
     assert ("of the time, which says little" in text) == said
 
 
+@pytest.mark.parametrize(("last", "stands"), [(0.13, True), (0.14, False)])
+def test_one_speed_under_any_voltage_is_the_last_that_a_sensor_showed(last: float, stands: bool) -> None:
+    found = describe_excitation(log(np.repeat([0.0, -1.0], 50), np.append(np.full(99, 0.13), last)))
+    assert any("The motor hardly moves" in line for line in found) is stands
+
+
 def test_one_voltage_all_the_time() -> None:
     found = describe_excitation(log(np.full(100, 1.88), np.full(100, 5.0)))[0]
     assert found.startswith("Excitation: 1.88 V all the time, one way only;")

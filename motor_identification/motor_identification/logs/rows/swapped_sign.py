@@ -4,12 +4,16 @@ from dataclasses import replace
 
 import numpy as np
 
+from motor_identification.logs.correlation import correlate
 from motor_identification.logs.signals import Signals
 
 # Of the motion, weighted by voltage, as `measurement/sanity_checks.py` has it: braking and coasting leave more than
 # half with the voltage, exchanged wires -0.9.
 AGAINST = -0.5
 FEWEST = 20  # rows that tell, or spans of them
+# A standing motor's speeds are few: 0, or the last one that its sensor showed, or one count to either way. They are the
+# same whatever the voltage is, which has a change of half of it and more.
+MOST_STANDING, ANSWERS, HALF = 3, -0.2, 0.5
 
 
 def turn_round(signals: Signals, is_speed: bool) -> tuple[Signals, list[str]]:
@@ -27,13 +31,21 @@ def _goes_against(signals: Signals, is_speed: bool) -> bool:
     """Decide whether a motion goes against the voltage: from row to row, or over as many as noise leaves to see."""
     rows, told, noisy = 1, *_compare(signals, is_speed, 1)
     if told < AGAINST or is_speed:
-        return told < AGAINST
+        return told < AGAINST and not (is_speed and _stands(signals))
     while noisy and 2 * rows * FEWEST <= len(signals):
         rows *= 2
         told, noisy = _compare(signals, is_speed, rows)
     if told >= AGAINST or noisy:
         return False
     return _compare(signals, is_speed, 2 * rows)[0] < AGAINST  # a loop that holds a load, or answers late, changes that
+
+
+def _stands(signals: Signals) -> bool:
+    """Whether speeds are those of a motor that stands: a few values, which do not answer the voltage."""
+    volts = signals.voltage
+    if np.ptp(volts) < HALF * np.max(np.abs(volts)) or len(np.unique(signals.motion)) > MOST_STANDING:
+        return False
+    return correlate(volts, signals.motion) > ANSWERS
 
 
 def _compare(signals: Signals, is_speed: bool, rows: int) -> tuple[float, bool]:

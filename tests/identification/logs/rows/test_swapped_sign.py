@@ -37,6 +37,17 @@ def test_so_much_of_it(share: float, turned: bool) -> None:
     assert bool(turn_round(signals(against), True)[1]) == turned
 
 
+@pytest.mark.parametrize("noise", [0.0, 1.24])
+def test_a_standing_motor_is_not_turned_round(noise: float) -> None:
+    """A sensor shows its last speed, or a count of noise, under -400 of 5000, which friction holds."""
+    volts = np.where(np.arange(200) < 40, 0.0024, -0.96)
+    stale = 1.24 + noise * (np.random.default_rng(1).random(200) < 0.3)
+    given = replace(signals(stale), voltage=volts)
+    assert turn_round(given, True)[1] == []
+    one_count = np.where(np.arange(200) < 45, 0.0, 1.24)  # of a motor that turns
+    assert turn_round(replace(given, motion=one_count), True)[1]
+
+
 def test_a_few_rows_tell_nothing() -> None:
     for rows, turned in ((19, False), (20, True)):
         few = replace(signals(-VOLTAGE), runs={"": slice(0, 200)}).only(np.arange(200) < rows)
