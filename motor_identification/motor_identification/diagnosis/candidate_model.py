@@ -203,6 +203,17 @@ class Model:
         return not self.above_floor or self.held.gap > thresholds.RANDOM_GAP[0] * self.noise_floor
 
     @property
+    def is_tossed(self) -> bool:
+        """Whether its random torque is larger than those of gears and loads: what the table lacks may be in it.
+
+        One that lasts for less than a row is rather the sensor's noise, or of stamps.
+        """
+        largest = max((float(np.max(np.abs(one.voltage))) for one in self.held.recordings), default=0.0)
+        row = min((one.info.sample_period for one in self.held.recordings), default=0.0)
+        strong = self.errors.rms_voltage > thresholds.MOST_TORQUE * largest > 0.0
+        return self.above_floor and strong and self.errors.correlation_time >= row
+
+    @property
     def unpredictable_gap(self) -> float:
         """[rad/s] of the gap, what no free curve predicts; the sensor's floor where it explains what is left."""
         if not self.above_floor or not self.is_random:

@@ -219,6 +219,8 @@ def decide(
         return Verdict.UNDECIDED, ""  # no experiment tells more before its columns belong together
     if complete and findings and last.above_floor and last.held.gap > thresholds.MOMENTS_GAP * last.noise_floor:
         return Verdict.UNDECIDED, ""  # few moments leave it, of which no torque tells
+    if complete and last.is_tossed:
+        return Verdict.UNDECIDED, ""
     if vague := list_vague(findings):
         return Verdict.UNDECIDED, EFFECT_BY_NAME[vague[0].effect].shown_by
     if hidden and not findings:

@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 
 from motor_identification.diagnosis.result import Diagnosis, Finding
-from motor_identification.diagnosis.thresholds import EXPLAINED_GAP, WILD_TIME
+from motor_identification.diagnosis.thresholds import EXPLAINED_GAP, MOST_TORQUE, WILD_TIME
 from motor_identification.noise.error_model import Disturbance
 from motor_identification.recording import Floats
 from motor_identification.reporting.numbers import format_measured
@@ -25,6 +25,10 @@ QUICK = (
 LARGE = (
     " That is {:.0f} % of the {:.3g} V that was applied at most{}: the voltage that was logged is probably not what "
     "drove the motor."
+)
+TOSSED = (
+    " That is {:.2g} % of the voltage that was applied at most, and more than gears and loads make: what is not in the "
+    "table may be in it, and what was fitted beside it off by more than its errors."
 )
 STOOD = ", under half of which and more it stood for {:.3g} s after it had turned"
 LARGE_SHARE = 0.5  # of the largest voltage: a motor on which a random torque of more acts follows something else
@@ -110,6 +114,8 @@ def describe_disturbance(diagnosis: Diagnosis) -> str:
         strong = QUICK.format(100.0 * found.rms_voltage / largest)
     if not strong and found.rms_voltage > LARGE_SHARE * largest:
         strong = LARGE.format(100.0 * found.rms_voltage / largest, largest, _describe_stop(diagnosis.after, largest))
+    if not strong and found.rms_voltage > MOST_TORQUE * largest and found.correlation_time >= row:
+        strong = TOSSED.format(100.0 * found.rms_voltage / largest)
     return torque + strong + _describe_breakaway(diagnosis.findings, found)
 
 

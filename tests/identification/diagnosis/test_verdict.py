@@ -140,6 +140,16 @@ def test_what_no_torque_leaves_in_few_moments_is_undecided(times: float, verdict
     assert decide((finding(),), chosen(model), ()) == (verdict, "")
 
 
+@pytest.mark.parametrize(("tossed", "verdict"), [(False, Verdict.EXPLAINED), (True, Verdict.UNDECIDED)])
+def test_nothing_is_explained_beside_a_torque_larger_than_those_of_gears(
+    monkeypatch: pytest.MonkeyPatch, tossed: bool, verdict: Verdict
+) -> None:
+    monkeypatch.setattr(Model, "is_tossed", tossed)
+    assert decide((finding(),), chosen(stub_model(AT, 0.0)), ()) == (verdict, "")
+    nothing = decide((), chosen(stub_model(AT, 0.0)), ())
+    assert nothing == (Verdict.UNDECIDED if tossed else Verdict.NOTHING_MISSING, "")
+
+
 def test_a_lag_that_may_be_of_the_sensor_is_undecided() -> None:
     lag = replace(finding(), effect="armature_inductance")
     assert [one.sensor_may_lag for one in doubt_lags((finding(), lag))] == [False, True]

@@ -54,6 +54,22 @@ def test_beside_a_torque_of_half_the_voltage_something_else_drove_the_motor(
 
 
 @pytest.mark.parametrize(
+    ("share", "rows", "said"),
+    [(0.049, 2.0, False), (0.051, 2.0, True), (0.49, 2.0, True), (0.51, 2.0, False), (0.1, 0.9, False)],
+)
+def test_a_torque_that_is_large_for_one_may_hold_what_is_not_in_the_table(
+    variants: dict[Verdict, Diagnosis], share: float, rows: float, said: bool
+) -> None:
+    """A play of gears was a torque of 11 % of the supply, and a limit of the voltage "explained" the rest."""
+    one = variants[Verdict.UNDECIDED]
+    largest = max(float(np.abs(recording.voltage).max()) for recording in one.after.recordings)
+    row = min(recording.sample_period for recording in one.after.recordings)
+    text = summarize_diagnosis(replace(one, disturbance=Disturbance(share * largest, 0.001, rows * row, 1e-6)))
+    words = f"That is {100.0 * share:.2g} % of the voltage that was applied at most, and more than gears and loads make"
+    assert (words in text) is said
+
+
+@pytest.mark.parametrize(
     ("share", "rows", "said"), [(0.12, 0.99, True), (0.12, 1.01, False), (0.021, 0.5, True), (0.019, 0.5, False)]
 )
 def test_a_torque_that_lasts_for_less_than_a_row_is_rather_noise(
