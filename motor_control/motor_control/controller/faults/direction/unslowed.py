@@ -6,8 +6,9 @@ edges say in one window after the other is compared with the first one: a window
 clock stops for no disc, however heavy; six windows of 0.5 s, of which none is slower by 2 %, are a time constant beyond
 two minutes. By a model the windows are shorter, but one time constant at least.
 
-With one channel, whose friction has to hold 0 rad/s (`evidence`), no load keeps a motor turning: it is stopped. With
-two, a weight may, as a hand may turn either: after two windows it is said, and of two channels no more.
+With one channel, whose friction has to hold 0 rad/s (`evidence`), no load keeps a motor turning fast: it is stopped
+beyond twice the share of its top speed that a load may take. What creeps, or has two channels, a weight may turn, and
+so it is where no top speed is known, by a model or a steady motion: there it is said, after two windows, and no more.
 """
 
 from dataclasses import dataclass, replace
@@ -19,6 +20,7 @@ SETTLED = 0.3  # [s] of 0 V before the first window: a bridge and a current obey
 WINDOW, SHORTEST = 0.5, 0.25  # [s] without a model; with one
 SLOWER = 0.98  # of the first window's speed
 EDGES = 200  # in a window at least: one is less than `SLOWER` leaves; a slow motor's windows are longer
+LOADS = 2.0  # times the share of the top speed that a load may take
 SAID, MOST = 2, 6  # windows after which it is said, and after which the motor is stopped
 SENTENCE = (
     "The motor is told 0 V, and for {:.2g} s has turned at {:.3g} rad/s without slowing down: see whether the bridge "
@@ -56,5 +58,6 @@ def check(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     first = state.first or speed
     lasted = state.lasted + time
     said = SENTENCE.format(lasted, speed) if SAID <= windows <= MOST else state.warning
-    stops = windows >= MOST and not config.two_channels
+    top = min(config.fastest, seen.motion.fastest(seen.voltage_limit))
+    stops = windows >= MOST and not config.two_channels and speed > LOADS * config.spare * top
     return said if stops else "", State(state.settling, first=first, windows=windows, lasted=lasted, warning=said)

@@ -14,6 +14,7 @@ from motor_model.sample import Sample
 
 Course = Callable[[float], float]
 PERIOD = 0.005  # [s]
+FELT = Motion(steady_speed=50.0, steady_voltage=3.5)  # 171 rad/s of all the voltage
 END = unslowed.SETTLED + unslowed.MOST * unslowed.WINDOW
 
 
@@ -25,7 +26,7 @@ def follow(
     for k in range(round(seconds / PERIOD)):
         now, speed = (k + 1) * PERIOD, course(k * PERIOD)
         before, travel = int(travel / SLOT), travel + speed * PERIOD
-        motion = Motion(slow_speed=speed, edges=int(travel / SLOT) - before)
+        motion = replace(FELT, slow_speed=speed, edges=int(travel / SLOT) - before)
         seen = Seen(Sample(0, speed, volts), speed, motion, reference, PERIOD, LIMIT, asked=volts)
         reason, state = unslowed.check(config, state, seen)
         warned = min(warned, now if state.warning else inf)
@@ -81,7 +82,24 @@ def test_what_is_driven_or_not_too_fast_or_not_counted_is_no_case() -> None:
 
 
 def test_of_few_edges_the_windows_are_longer() -> None:
-    assert follow(lambda _: 50.0 * SLOT / unslowed.WINDOW, 20.0, reference=0.0)[1] == pytest.approx(12.3, abs=0.2)
+    few = replace(ENCODER, spare=0.01)
+    course = 50.0 * SLOT / unslowed.WINDOW
+    assert follow(lambda _: course, 20.0, few, reference=0.0)[1] == pytest.approx(12.3, abs=0.2)
+
+
+@pytest.mark.parametrize("config", [ENCODER, KNOWN])
+def test_what_a_load_may_turn_is_said_and_not_stopped(config: Config) -> None:
+    """Of 60 random motors one crept on at 0.59 rad/s, under a load as large as its friction."""
+    most = unslowed.LOADS * config.spare * (174.0 if config is KNOWN else 171.4)
+    warned, stopped = follow(lambda _: 0.95 * most, config=config, reference=0.0)
+    assert warned < inf and stopped == inf
+    assert follow(lambda _: 1.05 * most, config=config, reference=0.0)[1] < inf
+
+
+def test_a_motor_of_which_nothing_is_known_is_not_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(globals(), "FELT", Motion())
+    warned, stopped = follow(lambda _: 174.0)
+    assert warned < inf and stopped == inf
 
 
 def test_a_window_that_is_slower_begins_anew() -> None:
