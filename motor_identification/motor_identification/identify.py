@@ -18,6 +18,7 @@ from motor_identification.physical.measured_current import identify_with_current
 from motor_identification.progress import Heartbeat
 from motor_identification.recording import Recording
 from motor_identification.sensor.description import note_sensors
+from motor_identification.sensor.pulses.missed_edges import average_shares
 from motor_identification.timing.speed_timing import find_timing
 from motor_identification.uncertainty.result import Fit
 from motor_identification.uncertainty.summary import summarise_fit
@@ -32,6 +33,7 @@ Progress = Callable[[str, float], None]  # what is being done, share done 0 to 1
 ROOM = 192 * 2**20  # [bytes] half a minute at 200 Hz on two cores fits in 230 MiB beside the imports, not in 140
 SEARCHED, DESCENDED = 0.5, 0.9  # of the progress bar
 MISCOUNTED = "{} of {} intervals were left out: off by whole slots (edges missed or counted twice)."
+MISSED = "{:.2%} ± {:.2%} of all edges were missed: only those that follow each other were compared."
 UNFINISHED = (
     "The search ended after {} simulations, before independent starts agreed ({} of {} did): raise epochs or "
     "particles, or compare another seed."
@@ -94,7 +96,9 @@ def _list_left_out(whole: Problem, counted: Problem, kept: Problem) -> list[str]
     total, miscounted = len(whole.weight), len(whole.weight) - len(counted.weight)
     outliers = len(counted.weight) - len(kept.weight)
     rows = ((MISCOUNTED, miscounted), (OUTLYING, outliers))
-    return [text.format(number, total) for text, number in rows if number]
+    missed = average_shares([data.missed for data in whole.intervals])
+    notes = [] if missed is None else [MISSED.format(missed.share, missed.error)]
+    return notes + [text.format(number, total) for text, number in rows if number]
 
 
 def _list_doubts(search: SearchReport) -> list[str]:

@@ -32,8 +32,8 @@ from motor_model.sensing.board import BoardConfig
 BASE = {"kv": 0.9 * PAPER_KV, "ka": 1.2 * PAPER_KA}
 
 
-def made(hidden: dict[str, float], drive: profiles.Profile, seed: int) -> Recording:
-    return check(record(BASE | hidden, *drive, seed=seed, disc_seed=3, irregularity=0.005)[0])
+def made(hidden: dict[str, float], drive: profiles.Profile, seed: int, edges: int = 96) -> Recording:
+    return check(record(BASE | hidden, *drive, seed=seed, disc_seed=3, irregularity=0.005, edges=edges)[0])
 
 
 def diagnosed(hidden: dict[str, float], known: tuple[str, ...] = ()) -> Diagnosis:
@@ -159,6 +159,16 @@ def test_missed_edges_are_counted() -> None:
     assert [one.effect for one in found.findings] == ["missed_edges"]
     rate, sigma = found.findings[0].parameters["miss_rate"]
     assert abs(rate - 0.005) < 4.0 * sigma and 1e-4 < sigma < 1e-3
+
+
+def test_missed_edges_among_many_in_a_row_are_counted_and_no_slower_motor() -> None:
+    """A constant share of what lies between two rows would be a larger kv by as much."""
+    rows = [made({"miss_rate": 0.03}, profiles.random(9.0, 4.0, seed), seed, edges=1024) for seed in (3, 4)]
+    found = diagnose(rows[:1], validation=rows[1:])
+    assert [one.effect for one in found.findings] == ["missed_edges"]
+    rate, sigma = found.findings[0].parameters["miss_rate"]
+    assert abs(rate - 0.03) < 4.0 * sigma and 1e-4 < sigma < 3e-3
+    assert found.model.parameters.value("kv") == pytest.approx(BASE["kv"], rel=2e-3)
 
 
 def test_a_single_step_cannot_tell_and_says_what_would() -> None:

@@ -19,11 +19,16 @@ from motor_identification.discrepancy.region_text import describe_error
 from motor_identification.discrepancy.structure import LEAST_SHARE, OVER_THE_DISC
 from motor_identification.estimation.request import SearchReport
 from motor_identification.recording import Recording
+from motor_identification.sensor.pulses.missed_edges import average_shares
 from motor_identification.uncertainty.identifiability import suggest_profile
 from motor_identification.uncertainty.result import Fit
 from motor_identification.uncertainty.summary import summarise_fit
+from motor_identification.validation.held_out import HeldOut
 from motor_identification.validation.instants import comes_slowly
 from motor_model.effects import EFFECT_BY_NAME, LAGS
+
+BY_PAIRS = "edges that follow each other come sooner than the count of those in between says, whatever the motor does"
+BY_WHOLE_SLOTS = "{} intervals are short by whole slots, whatever the motor does"
 
 
 def conclude(
@@ -163,18 +168,26 @@ def _locate(step: SelectionStep) -> str:
 
 
 def find_missed_edges(model: Model) -> Finding | None:
-    """Find missed edges, which only a complete model tells: as many as no wrong stamps make."""
+    """Find missed edges: by the edges themselves, or by as many as no wrong stamps make, of a complete model."""
     held, missed = model.held, count_missed_edges(model)
+    share = average_shares([data.missed for data in held.intervals])
+    if share is not None:
+        return _make_missed_edges(held, 0.5 * (share.share / share.error) ** 2, share.share, share.error, BY_PAIRS)
     if missed is None or not missed.certain or held.miscounted < thresholds.LEAST_MISSED_EDGES or not model.complete:
         return None
+    where = BY_WHOLE_SLOTS.format(held.miscounted)
+    return _make_missed_edges(held, missed.short, missed.rate, missed.rate_error, where)
+
+
+def _make_missed_edges(held: HeldOut, evidence: float, rate: float, error: float, where: str) -> Finding:
     everything = replace(held, scored=tuple(np.ones_like(part) for part in held.scored))
     return Finding(
         effect="missed_edges",
         gap_before=everything.gap,
         gap_after=held.gap,
-        evidence=missed.short,
-        where=f"{held.miscounted} intervals are short by whole slots, whatever the motor does",
-        parameters={"miss_rate": (missed.rate, missed.rate_error)},
+        evidence=evidence,
+        where=where,
+        parameters={"miss_rate": (rate, error)},
         alternatives=(),
         ambiguous_with=(),
         suggested_experiment="",

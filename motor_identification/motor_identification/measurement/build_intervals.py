@@ -5,6 +5,7 @@ An edge is an exact angle at a time known to the timer's tick, so that between t
 window.
 """
 
+from dataclasses import replace
 from math import sqrt
 
 import numpy as np
@@ -24,6 +25,7 @@ from motor_identification.measurement.standstill import (
 from motor_identification.recording import Floats, Recording
 from motor_identification.sensor.held_counts import drop_held_counts
 from motor_identification.sensor.noisy_angle import Angles, find_noisy_angles
+from motor_identification.sensor.pulses.missed_edges import mark_long_pairs, measure_missed_share
 from motor_identification.sensor.speed_sensor import SpeedSensor, find_speed_sensor
 from motor_model.errors import RecordingError
 from motor_model.sample import Measurement
@@ -63,9 +65,18 @@ def _from_edges(recording: Recording) -> Intervals:
 
 
 def make_edge_intervals(recording: Recording, edges: Edges) -> Intervals:
-    """Make intervals between stamped edges with known directions."""
+    """Make intervals between stamped edges with known directions.
+
+    Where edges are missed among many, only between those that follow each other: from there to the next such pair the
+    motor would seem slower by their share. Pairs with a missed edge between them are seen by their speed.
+    """
     slot = recording.info.edge_angle
-    good = mark_one_way(edges)
+    one_way = mark_one_way(edges)
+    missed = measure_missed_share(edges.time, edges.count, one_way)
+    good = one_way
+    if missed is not None:
+        slots = np.abs(np.diff(edges.count))
+        good = one_way & (slots == 1) & ~mark_long_pairs(slots, np.diff(edges.time))
     first, last = edges.only(np.flatnonzero(good)), edges.only(np.flatnonzero(good) + 1)
     speed = last.direction * np.abs(last.count - first.count) * slot / (last.time - first.time)
     # A stamp is uniform over a tick τ: its standard deviation is τ/√12, and that of the angle ω times as much.
@@ -77,11 +88,12 @@ def make_edge_intervals(recording: Recording, edges: Edges) -> Intervals:
         blur,
         edge=np.column_stack([first.count, last.count]),
         slot=slot,
-        left_out=int(np.count_nonzero(~good)),
+        left_out=int(np.count_nonzero(~one_way)),
         gear=float(recording.info.gear),
         unevenness=UNEVENNESS if recording.info.quadrature > 1 else 1.0,
     )
-    return append_standstills(moving, find_standstills_at_edges(recording, edges, ~good), slot)
+    moving = replace(moving, missed=missed)
+    return append_standstills(moving, find_standstills_at_edges(recording, edges, ~one_way), slot)
 
 
 def _from_counts(recording: Recording) -> Intervals:

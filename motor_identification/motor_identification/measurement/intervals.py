@@ -11,6 +11,7 @@ from math import sqrt, tau
 import numpy as np
 
 from motor_identification.recording import Bools, Floats, Integers
+from motor_identification.sensor.pulses.missed_edges import MissedShare
 
 UNEVEN_ROWS = 0.05  # of a row: what most of them, all but a fifth, differ by where their lengths are by chance
 TURNS_FOLLOWED = 0.1  # of the values that move: so many are less than a turn apart, of a log that follows the turns
@@ -43,6 +44,7 @@ class Intervals:
     unevenness: float = 1.0  # times as irregular as the flanks of one channel its slots may be
     window: float = 0.0  # [s] that each logged speed is a mean over; 0 between measured angles
     noise: float = 0.0  # [rad] what is known of a logged speed's noise, at either end of its window
+    missed: MissedShare | None = None  # of all edges, where so many are that those in between do not count
     rows: int = 1  # of the recording that were joined to one: of a long log, far quicker ones than the motion
 
     @property

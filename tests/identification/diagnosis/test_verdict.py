@@ -25,6 +25,7 @@ from motor_identification.diagnosis.verdict import (
 from motor_identification.discrepancy.structure import LEAST_SHARE, Structure
 from motor_identification.estimation.request import SearchReport
 from motor_identification.noise.error_model import ErrorModel
+from motor_identification.sensor.pulses.missed_edges import MissedShare
 from motor_identification.uncertainty.summary import summarise_fit
 from motor_model.effects import EFFECT_BY_NAME
 
@@ -197,6 +198,17 @@ def test_the_rate_of_missed_edges() -> None:
 @pytest.mark.parametrize(("gap", "found"), [(AT, True), (OVER, False)])
 def test_only_a_complete_model_tells_missed_edges(gap: float, found: bool) -> None:
     assert (find_missed_edges(short_by([1] * 12, gap)) is not None) is found
+
+
+@pytest.mark.parametrize("gap", [AT, OVER])
+def test_edges_themselves_tell_the_share_that_was_missed_whatever_the_model(gap: float) -> None:
+    model = short_by([1], gap)
+    (data,) = model.held.intervals
+    told = replace(model, held=replace(model.held, intervals=(replace(data, missed=MissedShare(0.03, 0.002)),)))
+    found = find_missed_edges(told)
+    assert found is not None and found.effect == "missed_edges" and found.parameters == {"miss_rate": (0.03, 0.002)}
+    assert found.evidence == pytest.approx(112.5)  # of log likelihood, at 15 standard errors
+    assert "whatever the motor does" in found.where
 
 
 @pytest.mark.parametrize(("miscounted", "found"), [(4, False), (5, True)])

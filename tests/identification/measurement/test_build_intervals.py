@@ -100,3 +100,28 @@ def test_less_than_three_intervals_are_refused(duration: float, enough: bool) ->
     else:
         with pytest.raises(RecordingError, match="by hand shows only . intervals of motion"):
             make_intervals(recording)
+
+
+@pytest.mark.parametrize("missed", [0.0, 0.03])
+def test_where_edges_are_missed_only_those_that_follow_each_other_tell_the_speed(missed: float) -> None:
+    def quickly(time: Floats) -> Floats:
+        return 4000.0 * time + 400.0 * time**2
+
+    recording = turning(quickly, 4.0)
+    counted = np.random.default_rng(1).random(int(recording.edge_count[-1]) + 1) >= missed
+    number = np.cumsum(counted) - 1  # as the sensor counts them
+    real = np.flatnonzero(counted)
+    fine = np.linspace(0.0, 4.0, 400_001)
+    stamps = np.round(np.interp(real, quickly(fine), fine) * 1e9).astype(np.int64)
+    count = np.maximum(number[recording.edge_count], 1)
+    before = stamps[count] - stamps[count - 1]
+    fewer = replace(recording, edge_count=count, edge_time=stamps[count], edge_period=before * 1e-9)
+    data = make_intervals(fewer)
+    slots = np.abs(np.diff(data.edge)[:, 0])
+    off = data.speed * data.duration / ((quickly(data.time[data.last]) - quickly(data.time[data.first])) * SLOT)
+    assert np.mean(np.abs(off - 1.0) < 1e-3) > 0.99
+    if missed:
+        assert data.missed is not None and data.missed.share == pytest.approx(missed, abs=3.0 * data.missed.error)
+        assert np.all(slots == 1)
+    else:
+        assert data.missed is None and np.max(slots) > 10

@@ -1,6 +1,7 @@
 """Count missed edges: intervals that a complete model sees short by whole slots.
 
-Where as many are long, or off by anything, it is the simulated motion that left the true one now and then.
+Where as many are long, or off by anything, it is the simulated motion that left the true one now and then. Where many
+edges come in a row, they tell it themselves: `sensor/pulses/missed_edges.py`.
 """
 
 from dataclasses import dataclass
