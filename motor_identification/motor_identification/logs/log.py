@@ -11,7 +11,7 @@ from motor_identification.logs.csv.reader import read_table
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import CsvForm, Kind, time_unit_size
 from motor_identification.logs.motion import Motion, read_motion
-from motor_identification.logs.rows.absurd_speeds import drop_absurd_beginnings
+from motor_identification.logs.rows.absurd_speeds import drop_absurd_beginnings, take_rest_for_zero
 from motor_identification.logs.rows.drive.coded_rows import drop_coded_rows
 from motor_identification.logs.rows.drive.late_start import drop_late_start
 from motor_identification.logs.rows.drive.logged_levels import split_between_levels
@@ -118,6 +118,7 @@ def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log
     signals, stamps = separate_stamps(signals)
     signals, divided = divide_by_regular_rows(stamped, signals) if form.kind is Kind.SPEED else (signals, [])
     signals, first = drop_first_rows(signals)
+    signals, rests = take_rest_for_zero(signals) if form.kind is Kind.SPEED else (signals, [])
     signals, unpowered = drop_unpowered_start(signals, form)
     signals, late = drop_late_start(signals, form)
     signals, off = drop_unpowered_end(signals, form)
@@ -134,6 +135,7 @@ def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log
         *stamps,
         *divided,
         *first,
+        *rests,
         *unpowered,
         *late,
         *off,

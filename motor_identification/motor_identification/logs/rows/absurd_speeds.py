@@ -1,7 +1,10 @@
-"""Leaves out what speeds begin with that is of the time before the log.
+"""Leaves out what speeds begin with that is of the time before the log, and what a sensor shows of a motor at rest.
 
-A filter begins with counts over a step of no length; a program with the latest values of the run before.
+A filter begins with counts over a step of no length; a program with the latest values of the run before. What measures
+the time between edges shows a rest by the longest time that it waits for one, and never by 0.
 """
+
+from dataclasses import replace
 
 import numpy as np
 
@@ -11,7 +14,20 @@ ABSURD = 100.0  # times the speed that nine of ten others do not exceed: no moto
 USUAL = 0.9
 FEWEST = 3  # rows: what is shorter is told as a wrong speed, wherever it stands
 FAR, AFTER = 10.0, 3  # times the speeds of so many rows after it, and the steps of their drive, is a first one
+REST, FEWEST_AT_REST = 0.05, 20  # of the next larger size, up to which one alone is that of a rest; and rows of it
 MOST = 0.2  # of the rows of a run: more of them are no accident
+
+
+def take_rest_for_zero(signals: Signals) -> tuple[Signals, list[str]]:
+    """Take the one size of speeds that is far below all others, with which runs begin, for 0 where none is 0."""
+    sizes, rows = np.unique(np.abs(signals.motion), return_counts=True)
+    if len(sizes) < 2 or not 0.0 < sizes[0] < REST * sizes[1] or rows[0] < FEWEST_AT_REST:
+        return signals, []
+    at_rest = np.abs(signals.motion) == sizes[0]
+    if not all(at_rest[run.start] for run in signals.runs.values()):
+        return signals, []
+    said = f"Speeds of {sizes[0]:.4g}, in {rows[0]} rows, are those of a standing motor, as no other is that small: 0."
+    return replace(signals, motion=np.where(at_rest, 0.0, signals.motion)), [said]
 
 
 def drop_absurd_beginnings(signals: Signals) -> tuple[Signals, list[str]]:

@@ -84,3 +84,23 @@ def test_an_import_leaves_a_first_row_of_a_run_before_out_and_says_so(tmp_path: 
     assert any(
         "Left out: the first row, with the speed and the drive of a run before" in one for one in motor.log.findings
     )
+
+
+@pytest.mark.parametrize(
+    ("rest", "zero", "begins", "taken"),
+    [(1.24, False, True, True), (2.1, False, True, False), (1.24, True, True, False), (1.24, False, False, False)],
+)
+def test_what_a_sensor_shows_of_a_rest_is_zero(
+    tmp_path: Path, rest: float, zero: bool, begins: bool, taken: bool
+) -> None:
+    """A PIO that waits for an edge shows 1.24 rpm at rest; one count is 38.64 rpm, and a mean of 32 rows."""
+    moves = -38.64 * np.rint(SPEED / 6.0)
+    speed = np.concatenate((np.zeros(100 if begins else 0), moves, np.zeros(0 if begins else 100)))
+    speed = np.where(speed == 0.0, 0.0 if zero else rest, speed)
+    speed[3] = 1.24 if zero else speed[3]
+    speed = speed if begins else np.delete(speed, np.flatnonzero(speed > 0.0)[:8])
+    path = tmp_path / "log.csv"
+    rows = (f"{row},{v:g},{-4 if v < 0 else 0}\n" for row, v in enumerate(speed))
+    path.write_text("time_ms,speed_rpm,voltage\n" + "".join(rows))
+    findings = import_log(path, Said()).motors[0].log.findings
+    assert any("are those of a standing motor" in line for line in findings) is taken
