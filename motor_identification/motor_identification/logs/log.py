@@ -31,6 +31,7 @@ from motor_identification.logs.rows.parts import (
 )
 from motor_identification.logs.rows.row_lengths import divide_by_regular_rows
 from motor_identification.logs.rows.stamps import drop_stray_stamps, separate_stamps, unwrap_clock
+from motor_identification.logs.rows.wraps import unwrap
 from motor_identification.logs.run import Run
 from motor_identification.logs.signals import LARGEST_VOLTAGE, Floats, Integers, Signals, read_signals
 from motor_identification.logs.steady import read_steady
@@ -126,7 +127,7 @@ def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log
     signals, unread = drop_unread_start(signals, form)
     signals, absurd = drop_absurd_beginnings(signals) if form.kind is Kind.SPEED else (signals, [])
     signals, gaps = split_at_gaps(signals)
-    signals, clock = restore_even_clock(signals, form.even_clock, form.kind is Kind.SPEED)
+    signals, clock = _restore_clock(signals, form)
     said += [
         *full,
         *stray,
@@ -165,6 +166,14 @@ def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log
     runs, still = leave_out_still_runs(made)
     info = replace(motion.info, voltage_assumed=form.voltage_before is None and not found)
     return Log(info, runs, (about, *said, *motion.findings, applied, *rest, *still))
+
+
+def _restore_clock(signals: Signals, form: CsvForm) -> tuple[Signals, list[str]]:
+    """Put rows onto the clock that their motion goes on with; positions that wrap are unwrapped for that."""
+    is_speed = form.kind is Kind.SPEED
+    unwrapped = signals if is_speed else unwrap(signals, form)[0]
+    restored, said = restore_even_clock(unwrapped, form.even_clock, is_speed)
+    return (replace(signals, time=restored.time), said) if said else (signals, [])
 
 
 def _samples(motion: Motion, held: Floats) -> tuple[Sample, ...]:

@@ -200,3 +200,16 @@ def test_an_import_says_it_and_lets_it_be_said(tmp_path: Path) -> None:
     kept = read_log(tmp_path / "log.csv", replace(FORM, even_clock=False))
     assert np.ptp(np.diff([one.sample_time for one in kept.runs[0].samples])) > 1e6
     assert not any("even clock" in line for line in kept.findings)
+
+
+def test_an_angle_that_wraps_every_few_rows_tells_the_clock_by_its_turns(tmp_path: Path) -> None:
+    """At 80 degrees a row no window of rows is without a wrap."""
+    logged = late(0.2)
+    angle = 80.0 * np.arange(ROWS) + 40.0 * np.sin(0.02 * np.arange(ROWS))
+    values = np.round(angle * 4096 / 360.0) * 360.0 / 4096
+    lines = "".join(f"{1e-9 * t:.6f},6,{c:.6f}\n" for t, c in zip(logged.time, values % 360.0, strict=True))
+    (tmp_path / "log.csv").write_text("t,u,c\n" + lines, encoding="utf-8")
+    found = read_log(tmp_path / "log.csv", CsvForm("t", "u", "c", Kind.POSITION, "deg", edges_per_revolution=4096))
+    assert any("--no-even-clock" in line for line in found.findings)
+    assert any("wraps at 360 deg" in line for line in found.findings)
+    assert np.ptp(np.diff([one.sample_time for one in found.runs[0].samples])) <= 1
