@@ -137,9 +137,16 @@ class CandidateTest:
         if shrinks and self.model.held.gap > thresholds.GROWN_GAP * self.held_before.gap:  # more than a sensor's noise
             before, after = self._join_lasting()
             shrinks = after.gap <= before.gap * thresholds.GAP_CHANCE
+        if is_same_motion(self.model, self.before) and self._leaves_nothing_that_lasts():
+            return False
         rows = min(self.model.score.scored, thresholds.RELEVANT_ROWS * self.model.measure_lags())
         least = thresholds.RELEVANT_WHITE_SHARE * rows * self._speaking
         return shrinks and said > 0.0 and (2.0 * self.steadiness > least or self.predicts)
+
+    def _leaves_nothing_that_lasts(self) -> bool:
+        """Whether the model without it is at the sensor's floor already, in lasting intervals too."""
+        before, after = self._join_lasting()
+        return before.gap < thresholds.RELEVANT_GAP * after.floor(self.model.noise.share)
 
 
 def share_explained(before: float, after: float, floor: float) -> float:
@@ -183,3 +190,14 @@ def _is_longer_than_rows_are_late(model: Model, lag: str) -> bool:
 def likelihood_threshold() -> float:
     """Compute what a log likelihood ratio has to exceed, by Markov's inequality for all effects together."""
     return log(len(EFFECT_BY_NAME) / thresholds.FALSE_ALARM_RATE)
+
+
+def is_same_motion(one: Model, other: Model) -> bool:
+    """Decide whether two models move alike where it counts: a load from the first instant on is a constant load.
+
+    Whatever their likelihoods, which go with the errors that were learned of each, too.
+    """
+    if one.held.residuals.shape != other.held.residuals.shape:
+        return False
+    apart = float(other.held.weight @ (one.held.residuals - other.held.residuals) ** 2)
+    return apart < (thresholds.SAME_MOTION * other.floor) ** 2

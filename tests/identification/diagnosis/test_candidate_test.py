@@ -237,3 +237,18 @@ def test_a_friction_that_explains_most_of_the_time_is_relevant_whatever_is_left_
     )
     assert not stub_test(effect, before, 20.0 * falls, 100.0).relevant  # another model
     assert replace(test).relevant is relevant
+
+
+@pytest.mark.parametrize(("lasting", "moves", "relevant"), [(0.99, 0.9, False), (0.99, 1.1, True), (1.01, 0.9, True)])
+def test_what_moves_a_model_at_the_sensors_floor_by_next_to_nothing_is_no_finding(
+    lasting: float, moves: float, relevant: bool
+) -> None:
+    """However likely: a load of 5e-5 V of 9 V beside a sag, by which the gap fell from 2.460238 to 2.460234 rad/s."""
+    floor = thresholds.RELEVANT_GAP * LASTING_FLOOR
+    before, model = beside_torque(1.0, -100.0), beside_torque(1.0, -10.0, 60.0)
+    shift = moves * thresholds.SAME_MOTION * FLOOR
+    before = replace(before, held=stub_held(1.0, lasting * floor))
+    held = stub_held(1.0, lasting * floor)
+    (angle,) = held.angles
+    model = replace(model, held=replace(held, angles=(angle - shift * np.append(0.0, STEP * np.arange(1, COUNT + 1)),)))
+    assert CandidateTest("load_bias", before, model).relevant is relevant

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
-from motor_identification.diagnosis.candidate_test import CandidateTest
+from motor_identification.diagnosis.candidate_test import CandidateTest, is_same_motion
 from motor_identification.diagnosis.effect_test import EFFECT_ORDER, count_parameters
 from motor_identification.diagnosis.evidence.torque_evidence import measure_steadiness
 
@@ -30,17 +30,6 @@ def is_better(test: CandidateTest, effect: str, current: Model) -> bool:
     if count_parameters(test.effect) >= count_parameters(effect):
         return current.likelihood - test.model.likelihood < -thresholds.RIVAL_MARGIN
     return find_loss(test, current) < thresholds.RIVAL_MARGIN or is_same_motion(test.model, current)
-
-
-def is_same_motion(one: Model, other: Model) -> bool:
-    """Decide whether two models move alike where it counts: a load from the first instant on is a constant load.
-
-    Whatever their likelihoods, which go with the errors that were learned of each, too.
-    """
-    if one.held.residuals.shape != other.held.residuals.shape:
-        return False
-    apart = float(other.held.weight @ (one.held.residuals - other.held.residuals) ** 2)
-    return apart < (thresholds.SAME_MOTION * other.floor) ** 2
 
 
 def find_loss(test: CandidateTest, current: Model) -> float:
