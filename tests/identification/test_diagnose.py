@@ -222,7 +222,7 @@ def test_a_time_limit_ends_the_look_at_a_timing(monkeypatch: pytest.MonkeyPatch)
         first.selection.hold_out.problem.raise_if_stopped()
         asked.append("not stopped")
 
-    monkeypatch.setattr("motor_identification.diagnose.find_timing_beside", look)
+    monkeypatch.setattr("motor_identification.diagnosis.selection.timed_selection.find_timing_beside", look)
     hurried = diagnose([recording], request=Request(time_limit=1e-9))
     assert asked == [True] and hurried.verdict is Verdict.UNDECIDED and hurried.time_limit == 1e-9
 

@@ -60,8 +60,16 @@ class Sender:
         return steps if steps == 1 or lost else 0
 
     def goes_on(self, message: Message) -> bool:
-        """Tell whether this sender would go on with a message, and not begin: it was heard a moment ago."""
-        return not _hear(self.sequence, message, self.count_steps(message)).begins
+        """Tell whether a message would come without a silence: this sender was heard a moment ago."""
+        passed = message.now - (self.sequence.heard or 0.0)
+        return passed / max(self.count_steps(message), 1) <= self.sequence.needed
+
+    def measure_deviation(self, message: Message) -> float:
+        """Measure how far from its own pace it would send a message, in its periods; 0: there is none yet."""
+        steps, latest = self.count_steps(message), self.sequence.latest
+        if not (steps and latest > 0.0):
+            return 0.0
+        return abs((message.now - (self.sequence.heard or 0.0)) / steps - latest) / latest
 
     def hear(self, message: Message, since: float) -> "Sender":
         """Take one more; since [s]: when the controller began."""
@@ -85,17 +93,19 @@ class Senders:
     firsts: Sequence = Sequence()  # the first messages of senders
     began: int = -1  # how many references had ended when such a message was last obeyed
     forgiven: int = -1  # as of a sender, for such messages
+    stops: bool = False  # the latest message is a speed of 0
+    doubted: bool = False  # the latest message may be a stream's that is barred as well: nobody begins with it
 
     def hear(self, message: Message, since: float, introduced: float) -> "Senders":
         """Take a message, whose sender is the last one then.
 
         since [s]: when the controller began; introduced: when the latest publisher was first seen to be there.
         """
-        found = self._find(message)
+        found, doubted = self._find(message)
         others = tuple(one for one in self.known if one is not found)
         firsts = self.firsts
         if found is not None:
-            sender = found.hear(message, since)
+            sender = found.hear(_without_stop(message, doubted), since)
         elif message.number == 1:
             firsts = firsts.hear(message.now, message.stops)
             sender = _start(message, firsts.begins or self.forgiven == self.ended)
@@ -103,7 +113,8 @@ class Senders:
             silence = message.now - introduced
             quiet = silence > (LONGEST if message.number is None else LONGEST_OF_ONE)
             sender = _start(message, quiet, unheard=not quiet)
-        return replace(self, known=(*others, sender)[-MOST:], firsts=firsts)
+        known = (*others, sender)[-MOST:]
+        return replace(self, known=known, firsts=firsts, stops=message.stops, doubted=doubted)
 
     @property
     def latest(self) -> Sender:
@@ -113,13 +124,18 @@ class Senders:
     def bars(self, driven: bool) -> bool:
         """Tell whether the latest sender goes on with what was ended; driven: what somebody asks for is in force.
 
-        Then a sender that begins, or all those whom nobody counts, may ask for something else.
+        Then a sender that begins, or all those whom nobody counts, may ask for something else. A speed of 0 is obeyed,
+        whoever sends it.
         """
+        if self.stops or self.doubted:
+            return not self.stops
         joins = driven and self.latest.number in (1, None)
         return not (self._trusts(self.latest) or self.latest.sequence.begins or joins)
 
     def obey(self) -> "Senders":
-        """Obey the latest sender until a reference is ended."""
+        """Obey the latest sender until a reference is ended; of what may be a barred stream's, nobody."""
+        if self.doubted:
+            return self
         began = self.ended if self.latest.number == 1 else self.began
         return replace(self, known=(*self.known[:-1], replace(self.latest, obeyed=self.ended)), began=began)
 
@@ -147,19 +163,29 @@ class Senders:
         known = (replace(one, sequence=replace(one.sequence, single=nan)) for one in self.known)
         return replace(self, known=tuple(known))
 
-    def _find(self, message: Message) -> Sender | None:
-        """Find whose next message it is; where it may be several's, one of those who go on, and are not obeyed.
+    def _find(self, message: Message) -> tuple[Sender | None, bool]:
+        """Find whose next message it is, and whether it may be of a stream as well that goes on beyond an end.
 
-        A stream that was ended passes the number at which another one fell silent, which begins with its next message.
+        Where it may be several's, it is one's who goes on, and whose pace it fits best. A stream that was ended passes
+        the number at which another one fell silent, which begins with its next message; and two of one launch file are
+        at the same number all the time.
         """
         able = [one for one in self.known if one.count_steps(message)]
-        return min(able, key=lambda one: self._rank(one, message), default=None)
+        found = min(able, key=lambda one: self._rank(one, message), default=None)
+        barred = [one for one in able if one is not found and one.goes_on(message) and not self._trusts(one)]
+        return found, bool(barred)
 
-    def _rank(self, one: Sender, message: Message) -> tuple[bool, int, bool]:
-        return (not one.goes_on(message), one.count_steps(message), self._trusts(one))
+    def _rank(self, one: Sender, message: Message) -> tuple[bool, int, float, bool]:
+        pace = one.measure_deviation(message)
+        return (not one.goes_on(message), one.count_steps(message), pace, self._trusts(one))
 
     def _trusts(self, one: Sender) -> bool:
         return self.ended in (one.obeyed, one.forgiven)
+
+
+def _without_stop(message: Message, doubted: bool) -> Message:
+    """Take from a 0 that may be another's that its sender stops; it is obeyed all the same."""
+    return message._replace(stops=message.stops and not doubted)
 
 
 def _hear(sequence: Sequence, message: Message, steps: int = 1) -> Sequence:

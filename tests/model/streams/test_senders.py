@@ -231,3 +231,33 @@ def test_a_stream_that_was_ended_is_not_forgiven_with_another() -> None:
     assert hall.senders.forgive().forgives is False
     hall.end()
     assert hall.senders.forgives and not hall.says(6, 5.0) and hall.says(2, 5.1, 30.0, "position")
+
+
+@pytest.mark.parametrize("offset", [0.04, 0.2, 0.4, 0.7, 0.95])
+@pytest.mark.parametrize("period", [1.0, 0.1, 0.02])
+def test_two_streams_of_one_launch_file_are_at_the_same_number_and_let_each_other_go_on_never(
+    period: float, offset: float
+) -> None:
+    """The 0 of one was taken for the other's, which then drove the motor at once, and never had sent one."""
+    hall = Hall(since=-10.0)
+    sent = [("a", k, k * period) for k in range(1, 120)] + [("b", k, (k + offset) * period) for k in range(1, 120)]
+    ended, obeyed = False, []
+    for name, number, now in sorted(sent, key=lambda one: one[2]):
+        if not ended and now > 30.2 * period:
+            hall.end()
+            ended = True
+        stops = name == "a" and number in (60, 61)
+        if hall.says(number, now, 0.0 if stops else 9.0) and ended:
+            obeyed.append((name, stops))
+    assert obeyed == [("a", True)] * 2  # a 0 is obeyed, whosever it is
+
+
+def test_one_of_two_streams_at_the_same_number_begins_after_a_silence() -> None:
+    hall = Hall()
+    both = [(k, 0.1 * k + offset) for k in range(1, 60) for offset in (0.0, 0.04)]
+    assert all(hall.says(*one) for one in both)
+    hall.end()
+    assert not any(hall.says(k, 0.1 * k + offset) for k in range(60, 80) for offset in (0.0, 0.04))
+    assert not any(hall.says(k, 0.1 * k + 0.04) for k in range(80, 100))  # the other one pauses, for 2 s
+    assert hall.says(80, 10.05) and hall.says(81, 10.15)
+    assert not hall.says(100, 10.16)
