@@ -20,7 +20,7 @@ silence as long as the timeout, and long beside the time between them: who went 
 """
 
 from dataclasses import dataclass, replace
-from math import inf, isfinite
+from math import ceil, inf, isfinite
 
 from motor_examples.diff_drive.kinematics import (
     STILL,
@@ -35,6 +35,7 @@ from motor_examples.diff_drive.kinematics import (
 )
 from motor_examples.diff_drive.wheel import Wheel, awaits_answer, find_trouble
 from motor_model.streams.senders import Message, Senders
+from motor_model.streams.sequence import LONGEST
 
 MOST_BEHIND = 1.0  # [rad] that a wheel makes up for: one that slipped or was blocked does not race afterwards
 LONGEST_STEP = 0.1  # [s] of the limits' ramp: after a pause of the computer the robot does not jump
@@ -66,7 +67,7 @@ FIXED = (
     "wheel_radius and wheel_separation stay as they are while the robot moves or is asked to: its wheels would jump to "
     "other speeds. Send a cmd_vel of 0, and set them when both wheels stand."
 )
-BEGIN = "{} Both wheels stop. Then send a cmd_vel of 0, or pause, before the next velocity."
+BEGIN = "{} Both wheels stop. Then send a cmd_vel of 0, or pause for {:g} s, before the next velocity."
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +94,7 @@ class State:
     angles: Wheels = Wheels(0.0, 0.0)  # [rad] of both at the last step
     reason: str = IDLE
     trouble: str = ""  # why velocities have to begin again; empty: they need not
-    senders: Senders = Senders()  # of velocities, obeyed or not
+    senders: Senders = Senders(longest=LONGEST)  # of velocities, obeyed or not; keys are pressed at any times
     refused: str = ""  # why a velocity was not obeyed, where there is no trouble any more
     refused_at: float = 0.0  # when that was
 
@@ -140,6 +141,13 @@ def refuse_command(state: State, why: str, now: float, twist: Twist | None = Non
     return replace(_end(state, why), commanded=now)
 
 
+def _find_pause(config: Config, state: State) -> float:
+    """Find for how long [s] whoever sent last has to pause, so that his next velocity begins."""
+    known = state.senders.known
+    needed = max(known[-1].sequence.needed if known else 0.0, config.cmd_vel_timeout)
+    return ceil(10.0 * needed) / 10.0
+
+
 def _hear(state: State, twist: Twist, now: float, number: int | None) -> State:
     """Hear a velocity, whether or not it is obeyed."""
     message = Message("cmd_vel", number, twist.linear + APART * twist.angular, twist == STILL, now)
@@ -161,7 +169,7 @@ def step(config: Config, state: State, wheels: tuple[Wheel, Wheel], now: float) 
     state = _follow_travel(_advance(config, _drop_stale(config, state, now), now), wheels)
     refused = state.refused if now - state.refused_at <= TOLD else ""
     healthy = not (state.trouble or refused)
-    reason = BEGIN.format(state.trouble) if state.trouble else refused or state.reason
+    reason = BEGIN.format(state.trouble, _find_pause(config, state)) if state.trouble else refused or state.reason
     if state.command is None and state.since is None:
         return Decision(None, False, reason, healthy), replace(state, twist=STILL, behind=Wheels(0.0, 0.0))
     if state.since is None and any(map(awaits_answer, wheels)):

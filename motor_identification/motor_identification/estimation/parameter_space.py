@@ -131,7 +131,14 @@ def map_theta(old: Unknowns, theta: Floats, new: Unknowns, values: Mapping[str, 
         if name in old.names:
             moved[new.columns[:, i]] = theta[old.columns[:, old.names.index(name)]]
     starts = int(new.turning.sum())
-    moved[len(moved) - starts :] = theta[len(theta) - starts :]
+    # Behind another timing a motor may turn at its first sample that did not before: then around what it shows there.
+    speeds = np.zeros(len(new.turning))
+    speeds[new.turning] = 0.5 * (new.low + new.high)[len(moved) - starts :]
+    both = old.turning & new.turning
+    before = np.zeros(len(old.turning))
+    before[old.turning] = theta[len(theta) - int(old.turning.sum()) :]
+    speeds[both] = before[both]
+    moved[len(moved) - starts :] = speeds[new.turning]
     return set_values(new, moved, {name: values[name] for name in new.names if name not in old.names})
 
 

@@ -12,13 +12,15 @@ is known beyond that: whatever else ends a reference bars a stream that is slowe
 """
 
 from dataclasses import dataclass, replace
-from math import nan
+from math import isnan, nan
 from typing import NamedTuple
 
 from motor_model.streams.sequence import LONGEST, LONGEST_OF_ONE, Sequence
 
 MOST = 16  # senders that are remembered
-CLOSEST = 0.5  # of the shortest time between two messages: as many as are lost take longer than that each
+# Times the shortest, and the usual, time between two messages: as many as are lost take longer than that each, and not
+# longer; else it is somebody's who is heard for the first time.
+CLOSEST, FARTHEST = 0.5, 2.0
 LISTENED = 0.2  # [s] after which a pace is known
 YOUNG = 2.5  # [s] of messages that a sender may have sent unheard: `ros2 topic pub` waits for nobody, once a second
 # [s] by which it may have begun before the controller. That takes as long to start: no controller before it has heard
@@ -56,20 +58,23 @@ class Sender:
             return 1
         steps = message.number - self.number
         passed = message.now - (self.sequence.heard or 0.0)
-        lost = steps > 1 and self.period > 0.0 and passed >= CLOSEST * self.period * steps
+        longest = FARTHEST * max(self.period, 0.0 if isnan(self.sequence.latest) else self.sequence.latest)
+        lost = steps > 1 and self.period > 0.0 and CLOSEST * self.period <= passed / steps <= longest
         return steps if steps == 1 or lost else 0
 
     def goes_on(self, message: Message) -> bool:
-        """Tell whether a message would come without a silence: this sender was heard a moment ago."""
-        passed = message.now - (self.sequence.heard or 0.0)
-        return passed / max(self.count_steps(message), 1) <= self.sequence.needed
+        """Tell whether a message would come without a silence: this sender was heard a moment ago.
+
+        Who has sent one alone has no pace, and has ended, as a command in a shell does.
+        """
+        needed = self.sequence.silence if isnan(self.sequence.latest) else self.sequence.needed
+        return (message.now - (self.sequence.heard or 0.0)) / max(self.count_steps(message), 1) <= needed
 
     def measure_deviation(self, message: Message) -> float:
-        """Measure how far from its own pace it would send a message, in its periods; 0: there is none yet."""
-        steps, latest = self.count_steps(message), self.sequence.latest
-        if not (steps and latest > 0.0):
-            return 0.0
-        return abs((message.now - (self.sequence.heard or 0.0)) / steps - latest) / latest
+        """Measure how far from its own pace it would send a message, in its periods; in seconds, where it has none."""
+        steps, latest = max(self.count_steps(message), 1), self.sequence.latest
+        passed = (message.now - (self.sequence.heard or 0.0)) / steps
+        return abs(passed - latest) / latest if latest > 0.0 else passed
 
     def hear(self, message: Message, since: float) -> "Sender":
         """Take one more; since [s]: when the controller began."""
@@ -90,6 +95,7 @@ class Senders:
 
     ended: int = 0
     known: tuple[Sender, ...] = ()
+    longest: float = LONGEST_OF_ONE  # [s] between two messages of one that are a stream
     firsts: Sequence = Sequence()  # the first messages of senders
     began: int = -1  # how many references had ended when such a message was last obeyed
     forgiven: int = -1  # as of a sender, for such messages
@@ -108,11 +114,11 @@ class Senders:
             sender = found.hear(_without_stop(message, doubted), since)
         elif message.number == 1:
             firsts = firsts.hear(message.now, message.stops)
-            sender = _start(message, firsts.begins or self.forgiven == self.ended)
+            sender = _start(message, firsts.begins or self.forgiven == self.ended, self.longest)
         else:
             silence = message.now - introduced
-            quiet = silence > (LONGEST if message.number is None else LONGEST_OF_ONE)
-            sender = _start(message, quiet, unheard=not quiet)
+            quiet = silence > (LONGEST if message.number is None else self.longest)
+            sender = _start(message, quiet, self.longest, unheard=not quiet)
         known = (*others, sender)[-MOST:]
         return replace(self, known=known, firsts=firsts, stops=message.stops, doubted=doubted)
 
@@ -196,9 +202,12 @@ def _hear(sequence: Sequence, message: Message, steps: int = 1) -> Sequence:
     return sequence.hear(message.now, message.stops, nan if message.number is None else message.value, steps)
 
 
-def _start(message: Message, begins: bool, unheard: bool = False) -> Sender:
-    """Start with the first message that is heard of a sender; unheard: it may have sent others before."""
-    empty = Sequence() if message.number is None else Sequence(longest=LONGEST_OF_ONE)
+def _start(message: Message, begins: bool, longest: float, unheard: bool = False) -> Sender:
+    """Start with the first message that is heard of a sender; unheard: it may have sent others before.
+
+    longest: the time [s] between two that are a stream, of one sender.
+    """
+    empty = Sequence() if message.number is None else Sequence(longest=longest)
     sequence = replace(_hear(empty, message), begins=begins or message.stops)
     first = (message.number, message.now) if unheard and message.number is not None else None
     return Sender(message.topic, message.number, sequence, first=first)

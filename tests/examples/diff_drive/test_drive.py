@@ -209,6 +209,28 @@ def test_a_stream_of_velocities_slower_than_their_timeout_has_to_begin_again(bef
     assert stream.run(0.1)
 
 
+def test_keys_that_are_pressed_at_any_times_are_obeyed_again_after_a_pause_that_is_said() -> None:
+    """A pause of twice the longest one between two presses was asked for, up to 10 s, and not told."""
+    robot = Robot()
+    number = 0
+    for pause in (0.7, 1.9, 0.4):
+        number += 1
+        robot.send(SPEED, number=number)
+        robot.run(pause)
+    robot.said["left"] = "stopped"
+    robot.run(1.0)
+    robot.said["left"] = "running"
+    robot.send(SPEED, number=number + 1)
+    robot.run(1.9)
+    assert robot.decisions[-1].references is None
+    assert "send a cmd_vel of 0, or pause for 2 s, before the next velocity" in robot.decisions[-1].reason
+    robot.send(SPEED, number=number + 2)
+    robot.run(2.1)
+    assert robot.decisions[-1].references is None
+    robot.send(SPEED, number=number + 3)
+    assert robot.run(DT).references == wheel_speeds(ROBOT, SPEED)
+
+
 def test_who_begins_to_send_velocities_is_obeyed_beside_a_stream_that_goes_on() -> None:
     robot = Robot()
     stream = Sender(robot, 0.04)

@@ -78,3 +78,17 @@ def test_theta_goes_over_to_more_unknowns_and_back() -> None:
     assert moved[-1] == 77.0 and map_theta(large, moved, small, {}) == pytest.approx(theta)
     far = map_theta(small, theta, large, values | {"step_voltage": np.array(1e3)})
     assert far[large.names.index("step_voltage")] == large.high[large.names.index("step_voltage")]
+
+
+def test_a_motor_that_turns_by_another_timing_alone_begins_around_what_it_shows_there() -> None:
+    """Seven steps whose rows were stamped a row late ended in an error: one timing began turning, the other did not."""
+    still, moving = make_unknowns([small_recording()] * 2, ()), make_unknowns([MOVING, small_recording()], ())
+    assert (still.turning.tolist(), moving.turning.tolist()) == ([False, False], [True, False])
+    theta = map_theta(still, THETA[:2], moving, {})
+    assert theta[:2] == pytest.approx(THETA[:2]) and len(theta) == 3
+    assert theta[2] == pytest.approx(0.5 * (moving.low[2] + moving.high[2])) and theta[2] != 0.0
+    assert map_theta(moving, theta, still, {}) == pytest.approx(THETA[:2])
+    both = make_unknowns([MOVING, MOVING], ())
+    begun = 0.7 * moving.low[2] + 0.3 * moving.high[2]
+    over = map_theta(moving, np.append(theta[:2], begun), both, {})
+    assert over[2] == pytest.approx(begun) and over[3] == pytest.approx(0.5 * (both.low[3] + both.high[3]))

@@ -3,7 +3,7 @@
 import pytest
 
 from motor_model.streams.senders import Message, Senders
-from motor_model.streams.sequence import LONGEST_OF_ONE
+from motor_model.streams.sequence import LONGEST, LONGEST_OF_ONE
 
 LONG_AGO, SPEED = -100.0, "speed"
 
@@ -261,3 +261,25 @@ def test_one_of_two_streams_at_the_same_number_begins_after_a_silence() -> None:
     assert not any(hall.says(k, 0.1 * k + 0.04) for k in range(80, 100))  # the other one pauses, for 2 s
     assert hall.says(80, 10.05) and hall.says(81, 10.15)
     assert not hall.says(100, 10.16)
+
+
+@pytest.mark.parametrize("pause", [0.7, 2.0, 8.0])
+@pytest.mark.parametrize("period", [0.02, 0.1, 1.0])
+def test_a_stream_of_what_was_asked_for_once_before_is_obeyed_from_its_first_message(
+    pause: float, period: float
+) -> None:
+    """`ros2 topic pub --once`, a release, and the same with a rate: all but one were taken for the first command's."""
+    hall = Hall()
+    assert hall.says(1, 0.0)
+    hall.end()
+    assert all(hall.stream(1, LONGEST + pause, 60, period))
+
+
+@pytest.mark.parametrize("period", [0.1, 1.0])
+def test_a_stream_that_is_first_heard_late_is_not_one_that_ended(period: float) -> None:
+    """What was lost of a stream comes at its pace: number 60, a minute after its 20th, was its next after a silence."""
+    hall = Hall()
+    hall.stream(1, 0.0, 20, 0.1)
+    hall.end()
+    hall.introduced = 62.0
+    assert not any(hall.stream(60, 62.0 + period, 20, period))
