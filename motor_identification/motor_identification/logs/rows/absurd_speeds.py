@@ -19,12 +19,15 @@ MOST = 0.2  # of the rows of a run: more of them are no accident
 
 
 def take_rest_for_zero(signals: Signals) -> tuple[Signals, list[str]]:
-    """Take the one size of speeds that is far below all others, with which runs begin, for 0 where none is 0."""
+    """Take the one size of speeds far below all others, with which runs begin undriven, for 0 where none is 0."""
     sizes, rows = np.unique(np.abs(signals.motion), return_counts=True)
     if len(sizes) < 2 or not 0.0 < sizes[0] < REST * sizes[1] or rows[0] < FEWEST_AT_REST:
         return signals, []
     at_rest = np.abs(signals.motion) == sizes[0]
-    if not all(at_rest[run.start] for run in signals.runs.values()):
+    if (
+        not all(at_rest[run.start] for run in signals.runs.values())
+        or np.median(np.abs(signals.voltage[at_rest])) > 0.0
+    ):
         return signals, []
     said = f"Speeds of {sizes[0]:.4g}, in {rows[0]} rows, are those of a standing motor, as no other is that small: 0."
     return replace(signals, motion=np.where(at_rest, 0.0, signals.motion)), [said]

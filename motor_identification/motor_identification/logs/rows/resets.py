@@ -135,10 +135,23 @@ def _first_jump(signals: Signals, count_of: ToCounts) -> int | None:
 
 
 def _in_least_steps(counts: Integers) -> Integers:
-    """Count in the least step of a position, shape (K,): whole degrees are 360 counts a turn, however stored."""
+    """Count in the least step of a position, shape (K,): whole degrees are 360 counts a turn, however stored.
+
+    As they are where the motor shows no single step: it never stands from row to row, or not all are multiples of one.
+    """
     steps = np.abs(np.diff(counts))
-    least = int(np.min(steps[steps > 0], initial=np.iinfo(np.int64).max))
-    return np.rint((counts - counts[0]) / least).astype(np.int64) if steps.any() else counts
+    if not (steps.any() and np.any(steps == 0)):
+        return counts
+    parts = steps / np.min(steps[steps > 0])
+    return (
+        np.append(0, np.cumsum(np.sign(np.diff(counts)) * np.rint(parts))).astype(np.int64)
+        if _are_whole(parts)
+        else counts
+    )
+
+
+def _are_whole(parts: Floats) -> bool:
+    return bool(np.all(np.abs(parts - np.rint(parts)) < 0.01))
 
 
 def _times(count: int) -> str:

@@ -104,3 +104,14 @@ def test_what_a_sensor_shows_of_a_rest_is_zero(
     path.write_text("time_ms,speed_rpm,voltage\n" + "".join(rows))
     findings = import_log(path, Said()).motors[0].log.findings
     assert any("are those of a standing motor" in line for line in findings) is taken
+
+
+@pytest.mark.parametrize(("volts", "taken"), [(0.0, True), (0.63, False)])
+def test_a_motor_that_creeps_under_a_voltage_does_not_stand(tmp_path: Path, volts: float, taken: bool) -> None:
+    """A step from a slow speed, to leave its breakaway out, was one from rest."""
+    speed = np.append(np.full(61, 4.0), np.linspace(140.0, 900.0, 200))
+    path = tmp_path / "log.csv"
+    rows = (f"{10 * row},{v:g},{volts if v < 5.0 else 6.0:g}\n" for row, v in enumerate(speed))
+    path.write_text("time_ms,speed_rpm,voltage\n" + "".join(rows))
+    findings = import_log(path, Said()).motors[0].log.findings
+    assert any("are those of a standing motor" in line for line in findings) is taken

@@ -67,6 +67,15 @@ def test_single_steps_of_a_stalled_motor_are_no_jumps(stored: float) -> None:
     assert len(signals.runs) == 2 and "y jumps once" in said[0]
 
 
+@pytest.mark.parametrize("jump", [-3000.0, 1500.0])
+def test_a_jump_is_seen_of_a_motor_that_never_is_slow(jump: float) -> None:
+    """Its least way from row to row is no step of its counter: the jump was six of them, and one row went backward."""
+    there = np.cumsum(515.0 + 5.0 * np.sin(np.arange(600) / 3.0)).round()
+    there[300:] += jump
+    signals, said = split_at_resets(rows(there), form("deg"), whole)
+    assert len(signals.runs) == 2 and "y jumps once" in said[0]
+
+
 @pytest.mark.parametrize(("first", "left_out"), [(-101.0, True), (-99.0, False)])
 def test_a_first_row_of_something_before_is_left_out(first: float, left_out: bool) -> None:
     """The motor goes 10 a row; the buffer of the program still had the end of the run before."""
