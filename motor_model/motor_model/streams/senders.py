@@ -21,6 +21,7 @@ MOST = 16  # senders that are remembered
 # Times the shortest, and the usual, time between two messages: as many as are lost take longer than that each, and not
 # longer; else it is somebody's who is heard for the first time.
 CLOSEST, FARTHEST = 0.5, 2.0
+HELD_UP, MOST_LOST = 4.0, 8.0  # [s] in which messages are lost at most, and of a slow stream so many
 LISTENED = 0.2  # [s] after which a pace is known
 YOUNG = 2.5  # [s] of messages that a sender may have sent unheard: `ros2 topic pub` waits for nobody, once a second
 # [s] by which it may have begun before the controller. That takes as long to start: no controller before it has heard
@@ -57,9 +58,10 @@ class Sender:
         if message.number is None or self.number is None:
             return 1
         steps = message.number - self.number
-        passed = message.now - (self.sequence.heard or 0.0)
+        passed = self._pass_to(message)
         longest = FARTHEST * max(self.period, 0.0 if isnan(self.sequence.latest) else self.sequence.latest)
-        lost = steps > 1 and self.period > 0.0 and CLOSEST * self.period <= passed / steps <= longest
+        paced = steps > 1 and self.period > 0.0 and CLOSEST * self.period <= passed / steps <= longest
+        lost = paced and passed <= max(self.sequence.needed, HELD_UP, MOST_LOST * self.sequence.latest)
         return steps if steps == 1 or lost else 0
 
     def goes_on(self, message: Message) -> bool:
@@ -67,14 +69,22 @@ class Sender:
 
         Who has sent one alone has no pace, and has ended, as a command in a shell does.
         """
-        needed = self.sequence.silence if isnan(self.sequence.latest) else self.sequence.needed
-        return (message.now - (self.sequence.heard or 0.0)) / max(self.count_steps(message), 1) <= needed
+        needed = LONGEST if isnan(self.sequence.latest) else self.sequence.needed
+        return self._pass_to(message) <= needed
 
     def measure_deviation(self, message: Message) -> float:
-        """Measure how far from its own pace it would send a message, in its periods; in seconds, where it has none."""
-        steps, latest = max(self.count_steps(message), 1), self.sequence.latest
-        passed = (message.now - (self.sequence.heard or 0.0)) / steps
-        return abs(passed - latest) / latest if latest > 0.0 else passed
+        """Measure how far from its own pace it would send a message, in its periods.
+
+        Of two that have none yet, who was heard first is next; unless they have fallen silent, who was heard last.
+        """
+        passed, latest = self._pass_to(message), self.sequence.latest
+        if latest > 0.0:
+            return abs(passed / max(self.count_steps(message), 1) - latest) / latest
+        return -passed if self.goes_on(message) else passed
+
+    def _pass_to(self, message: Message) -> float:
+        """[s] from its latest message to another."""
+        return message.now - (self.sequence.heard or 0.0)
 
     def hear(self, message: Message, since: float) -> "Sender":
         """Take one more; since [s]: when the controller began."""
@@ -181,9 +191,9 @@ class Senders:
         barred = [one for one in able if one is not found and one.goes_on(message) and not self._trusts(one)]
         return found, bool(barred)
 
-    def _rank(self, one: Sender, message: Message) -> tuple[bool, int, float, bool]:
+    def _rank(self, one: Sender, message: Message) -> tuple[bool, float, int, bool]:
         pace = one.measure_deviation(message)
-        return (not one.goes_on(message), one.count_steps(message), pace, self._trusts(one))
+        return (not one.goes_on(message), pace, one.count_steps(message), self._trusts(one))
 
     def _trusts(self, one: Sender) -> bool:
         return self.ended in (one.obeyed, one.forgiven)
