@@ -211,7 +211,7 @@ class Model:
         largest = max((float(np.max(np.abs(one.voltage))) for one in self.held.recordings), default=0.0)
         row = min((one.info.sample_period for one in self.held.recordings), default=0.0)
         strong = self.errors.rms_voltage > thresholds.MOST_TORQUE * largest > 0.0
-        return self.above_floor and strong and self.errors.correlation_time >= row
+        return strong and self.errors.correlation_time >= row
 
     @property
     def unpredictable_gap(self) -> float:

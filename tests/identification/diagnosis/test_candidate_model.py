@@ -37,15 +37,14 @@ def test_of_the_gap_is_unpredictable_what_no_curve_predicts_but_never_less_than_
 
 
 @pytest.mark.parametrize(
-    ("volts", "time", "above", "tossed"),
-    [(0.51, 0.01, True, True), (0.49, 0.01, True, False), (0.51, 0.009, True, False), (0.51, 0.01, False, False)],
+    ("volts", "time", "tossed"), [(0.51, 0.01, True), (0.49, 0.01, False), (0.51, 0.009, False), (0.0, 0.01, False)]
 )
 def test_a_torque_of_a_twentieth_of_the_voltage_is_more_than_gears_make(
-    volts: float, time: float, above: bool, tossed: bool
+    volts: float, time: float, tossed: bool
 ) -> None:
     recording = SimpleNamespace(voltage=np.array([-10.0, 4.0]), info=SimpleNamespace(sample_period=0.01))
     errors = ErrorModel(0.0, 0.0, volts, time)
-    model = SimpleNamespace(held=SimpleNamespace(recordings=(recording,)), errors=errors, above_floor=above)
+    model = SimpleNamespace(held=SimpleNamespace(recordings=(recording,)), errors=errors)
     assert Model.is_tossed.fget(model) is tossed  # type: ignore[attr-defined]
 
 
