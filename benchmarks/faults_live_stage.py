@@ -50,20 +50,20 @@ class Stage:
 
     def plant(self, name: str = "motor", namespace: str = "") -> None:
         """Start a simulated motor, and listen to it."""
-        self.listen(name, f"{namespace}/motor/speed" if namespace else "motor/speed")
+        self.follow_samples(name, f"{namespace}/motor/speed" if namespace else "motor/speed")
         options = ["-r", f"__ns:=/{namespace}"] if namespace else []
         values = ("-p", f"name:={name}", "-p", f"model:={self.model}", "-p", "single_channel:=false")
         self.run("motor_sim", "motor_sim", "--ros-args", *options, *values)
 
     def board(self, name: str = "motor") -> None:
         """Start the emulated board and its driver, and listen to that."""
-        self.listen(name, "motor/speed")
+        self.follow_samples(name, "motor/speed")
         link = self.folder / "board"
         self.run("motor_board", "board_emulator", "--ros-args", "-p", f"link:={link}")
         self.until(link.exists, "the board")
         self.run("motor_driver", "motor_driver", "--ros-args", "-p", f"port:={link}", "-p", f"name:={name}")
 
-    def listen(self, name: str, topic: str) -> None:
+    def follow_samples(self, name: str, topic: str) -> None:
         """Listen to a plant of a name."""
         self.names.add(name)
         if topic not in self._topics:

@@ -59,17 +59,22 @@ class Sender:
             return 1
         steps = message.number - self.number
         passed = self._pass_to(message)
-        longest = FARTHEST * max(self.period, 0.0 if isnan(self.sequence.latest) else self.sequence.latest)
+        longest = FARTHEST * max(self.period, self.sequence.latest if self.is_stream else 0.0)
         paced = steps > 1 and self.period > 0.0 and CLOSEST * self.period <= passed / steps <= longest
         lost = paced and passed <= max(self.sequence.needed, HELD_UP, MOST_LOST * self.sequence.latest)
         return steps if steps == 1 or lost else 0
+
+    @property
+    def is_stream(self) -> bool:
+        """Whether it has sent more than one."""
+        return not isnan(self.sequence.latest)
 
     def goes_on(self, message: Message) -> bool:
         """Tell whether a message would come without a silence: this sender was heard a moment ago.
 
         Who has sent one alone has no pace, and has ended, as a command in a shell does.
         """
-        needed = LONGEST if isnan(self.sequence.latest) else self.sequence.needed
+        needed = self.sequence.needed if self.is_stream else LONGEST
         return self._pass_to(message) <= needed
 
     def measure_deviation(self, message: Message) -> float:
@@ -188,8 +193,8 @@ class Senders:
         """
         able = [one for one in self.known if one.count_steps(message)]
         found = min(able, key=lambda one: self._rank(one, message), default=None)
-        barred = [one for one in able if one is not found and one.goes_on(message) and not self._trusts(one)]
-        return found, bool(barred)
+        others = [one for one in able if one is not found and one.is_stream and one.goes_on(message)]
+        return found, not all(self._trusts(one) for one in others)
 
     def _rank(self, one: Sender, message: Message) -> tuple[bool, float, int, bool]:
         pace = one.measure_deviation(message)

@@ -296,3 +296,11 @@ def test_one_users_stream_is_obeyed_beyond_the_number_at_which_an_earlier_one_en
     hall.introduced = 16.0
     obeyed = hall.stream(first, 16.0, 100, period)
     assert all(obeyed[round(0.4 / period) :])
+
+
+def test_who_has_sent_one_alone_is_no_stream_that_takes_anothers_0() -> None:
+    """Two nodes that have sent one each: the 0 of one was in doubt, and what it asked for next was refused."""
+    hall = Hall()
+    assert hall.says(1, 0.0, 0.0) and hall.says(1, 0.1, 60.0)
+    hall.end()
+    assert hall.says(2, 0.6, 0.0) and hall.says(3, 0.61, 60.0)
