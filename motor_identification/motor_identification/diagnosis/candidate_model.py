@@ -19,7 +19,7 @@ from motor_identification.noise.error_learning import estimate_disturbance
 from motor_identification.noise.error_model import Disturbance, ErrorModel, Lag
 from motor_identification.noise.gain_learning import learn_errors_of_runs, learn_own_gains
 from motor_identification.noise.likelihood import Noise
-from motor_identification.recording import Bools, Floats
+from motor_identification.recording import Bools, Floats, Recording
 from motor_identification.uncertainty.standard_errors import Uncertainty, estimate_uncertainty
 from motor_identification.validation.held_out import HeldOut, list_held_errors
 from motor_identification.validation.instants import needs_instant
@@ -204,14 +204,8 @@ class Model:
 
     @property
     def is_tossed(self) -> bool:
-        """Whether its random torque is larger than those of gears and loads: what the table lacks may be in it.
-
-        One that lasts for less than a row is rather the sensor's noise, or of stamps.
-        """
-        largest = max((float(np.max(np.abs(one.voltage))) for one in self.held.recordings), default=0.0)
-        row = min((one.info.sample_period for one in self.held.recordings), default=0.0)
-        strong = self.errors.rms_voltage > thresholds.MOST_TORQUE * largest > 0.0
-        return strong and self.errors.correlation_time >= row
+        """Whether its random torque is larger than those of gears and loads: what the table lacks may be in it."""
+        return tosses(self.errors, self.held.recordings)
 
     @property
     def unpredictable_gap(self) -> float:
@@ -268,6 +262,17 @@ def find_lasting_interval(held: HeldOut) -> float:
 def _measure_time(data: Intervals, marks: Bools) -> float:
     """Measure the time [s] that marked intervals stand for; speeds of instants have next to none of their own."""
     return float(data.duration[marks].sum() / data.duration.sum() * (data.time[-1] - data.time[0]))
+
+
+def tosses(torque: ErrorModel | Disturbance, recordings: Sequence[Recording]) -> bool:
+    """Decide whether a random torque is larger than those of gears and loads, beside the voltages of recordings.
+
+    One that lasts for less than a row is rather the sensor's noise, or of stamps.
+    """
+    largest = max((float(np.max(np.abs(one.voltage))) for one in recordings), default=0.0)
+    row = min((one.info.sample_period for one in recordings), default=0.0)
+    strong = torque.rms_voltage > thresholds.MOST_TORQUE * largest > 0.0
+    return strong and torque.correlation_time >= row
 
 
 def learn_errors(estimate: Estimate) -> ErrorModel:

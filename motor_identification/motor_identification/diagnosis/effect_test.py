@@ -195,8 +195,8 @@ def is_supported(test: CandidateTest) -> bool:
     return test.is_likely(likelihood_threshold()) and test.fits_training
 
 
-def may_be_gains(effect: str) -> bool:
-    """Decide whether an effect is a curve of steady speeds over voltages, which gains of runs at one level each are."""
+def is_static(effect: str) -> bool:
+    """Decide whether speed and voltage of a moment say all that an effect does then, as gains of runs at levels do."""
     row = EFFECT_BY_NAME[effect]
     return not (row.periodic or row.anywhere or row.after_reversals or effect in LAGS)
 

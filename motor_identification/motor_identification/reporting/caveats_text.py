@@ -5,8 +5,9 @@ from itertools import pairwise
 
 import numpy as np
 
+from motor_identification.diagnosis.candidate_model import tosses
 from motor_identification.diagnosis.result import Diagnosis, Finding
-from motor_identification.diagnosis.thresholds import EXPLAINED_GAP, MOST_TORQUE, WILD_TIME
+from motor_identification.diagnosis.thresholds import EXPLAINED_GAP, WILD_TIME
 from motor_identification.noise.error_model import Disturbance
 from motor_identification.recording import Floats
 from motor_identification.reporting.numbers import format_measured
@@ -114,7 +115,7 @@ def describe_disturbance(diagnosis: Diagnosis) -> str:
         strong = QUICK.format(100.0 * found.rms_voltage / largest)
     if not strong and found.rms_voltage > LARGE_SHARE * largest:
         strong = LARGE.format(100.0 * found.rms_voltage / largest, largest, _describe_stop(diagnosis.after, largest))
-    if not strong and found.rms_voltage > MOST_TORQUE * largest and found.correlation_time >= row:
+    if not strong and tosses(found, diagnosis.after.recordings):
         strong = TOSSED.format(100.0 * found.rms_voltage / largest)
     return torque + strong + _describe_breakaway(diagnosis.findings, found)
 

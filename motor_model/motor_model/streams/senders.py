@@ -7,6 +7,9 @@ A sender whose first message is heard has just begun, and is judged by how long 
 in a shell is a new sender each time. One that is first heard later was there before this controller, or began while the
 middleware introduced the two: its pace tells which. Who has been there for long without a word begins with the first.
 
+A number may be the next of several: it is theirs who were heard lately, and whose pace it fits. What may be of a stream
+that goes on beyond an end is not obeyed then, but for a 0, with which nobody begins.
+
 Where time alone ended a reference, who had been obeyed may go on: he was silent for as long as his user says. His pace
 is known beyond that: whatever else ends a reference bars a stream that is slower than such a time, too.
 """
@@ -78,13 +81,13 @@ class Sender:
         return self._pass_to(message) <= needed
 
     def measure_deviation(self, message: Message) -> float:
-        """Measure how far from its own pace it would send a message, in its periods.
+        """Measure how far from its own pace it would send a message that may be its next, in its periods.
 
         Of two that have none yet, who was heard first is next; unless they have fallen silent, who was heard last.
         """
         passed, latest = self._pass_to(message), self.sequence.latest
         if latest > 0.0:
-            return abs(passed / max(self.count_steps(message), 1) - latest) / latest
+            return abs(passed / self.count_steps(message) - latest) / latest
         return -passed if self.goes_on(message) else passed
 
     def _pass_to(self, message: Message) -> float:

@@ -19,6 +19,13 @@ def test_a_random_torque_is_said_with_its_strength(variants: dict[Verdict, Diagn
         assert "random" not in summarize_diagnosis(replace(variants[verdict], disturbance=None))
 
 
+def beside_torque(one: Diagnosis, share: float, rows: float) -> str:
+    """What is said of a torque of a share of the largest voltage that lasts for so many rows."""
+    largest = max(float(np.abs(recording.voltage).max()) for recording in one.after.recordings)
+    row = min(recording.sample_period for recording in one.after.recordings)
+    return summarize_diagnosis(replace(one, disturbance=Disturbance(share * largest, 0.001, rows * row, 1e-6)))
+
+
 @pytest.mark.parametrize(("share", "said"), [(1.05, True), (0.95, False)])
 def test_a_torque_above_all_that_was_applied_is_none(
     variants: dict[Verdict, Diagnosis], share: float, said: bool
@@ -61,10 +68,7 @@ def test_a_torque_that_is_large_for_one_may_hold_what_is_not_in_the_table(
     variants: dict[Verdict, Diagnosis], share: float, rows: float, said: bool
 ) -> None:
     """A play of gears was a torque of 11 % of the supply, and a limit of the voltage "explained" the rest."""
-    one = variants[Verdict.UNDECIDED]
-    largest = max(float(np.abs(recording.voltage).max()) for recording in one.after.recordings)
-    row = min(recording.sample_period for recording in one.after.recordings)
-    text = summarize_diagnosis(replace(one, disturbance=Disturbance(share * largest, 0.001, rows * row, 1e-6)))
+    text = beside_torque(variants[Verdict.UNDECIDED], share, rows)
     words = f"That is {100.0 * share:.2g} % of the voltage that was applied at most, and more than gears and loads make"
     assert (words in text) is said
 
@@ -76,10 +80,7 @@ def test_a_torque_that_lasts_for_less_than_a_row_is_rather_noise(
     variants: dict[Verdict, Diagnosis], share: float, rows: float, said: bool
 ) -> None:
     """Stamps of whole milliseconds at 1 kHz were "a torque of 5.9 V RMS, correlated over 0.6 ms", of 48 V."""
-    one = variants[Verdict.UNDECIDED]
-    largest = max(float(np.abs(recording.voltage).max()) for recording in one.after.recordings)
-    row = min(recording.sample_period for recording in one.after.recordings)
-    text = summarize_diagnosis(replace(one, disturbance=Disturbance(share * largest, 0.001, rows * row, 1e-6)))
+    text = beside_torque(variants[Verdict.UNDECIDED], share, rows)
     assert "The rest is random" in text
     assert (f"less than a row and is {100.0 * share:.2g} % of the voltage that was applied" in text) is said
 

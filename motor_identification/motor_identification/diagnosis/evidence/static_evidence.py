@@ -10,11 +10,12 @@ from collections.abc import Iterable
 import numpy as np
 
 from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.effect_test import is_static
 from motor_identification.measurement.command_swing import LEVEL_SHARE, LEVELS
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.recording import Floats, Recording
 from motor_identification.validation.held_out import HeldOut
-from motor_model.effects import EFFECT_BY_NAME, LAGS
+from motor_model.effects import EFFECT_BY_NAME
 
 STAYING = 0.5  # of the time in motion at places where a motor stays: with less it goes from place to place
 
@@ -24,7 +25,7 @@ def find_untold(model: Model) -> tuple[str, ...]:
 
     Without a torque beside them the motion between the places tells; one step is told by its shape.
     """
-    held, static = model.held, tuple(filter(_is_static, model.effects))
+    held, static = model.held, tuple(filter(_shapes_curve, model.effects))
     if not held.seen or not held.confirms or model.errors.rms_voltage == 0.0:
         return ()
     return static if count_static(static) >= count_places(held) else ()
@@ -72,12 +73,11 @@ def _round_to_fifths(values: Floats) -> Floats:
 
 def count_static(effects: Iterable[str]) -> int:
     """Count the parameters that static effects among some have; an instant is none of them."""
-    specs = [spec for effect in effects if _is_static(effect) for spec in EFFECT_BY_NAME[effect].parameters]
+    specs = [spec for effect in effects if _shapes_curve(effect) for spec in EFFECT_BY_NAME[effect].parameters]
     return sum(not spec.of_recording for spec in specs)
 
 
-def _is_static(name: str) -> bool:
+def _shapes_curve(name: str) -> bool:
     """Whether an effect shapes the curve of torques over voltage and speed, or does so from an instant on."""
     effect = EFFECT_BY_NAME[name]
-    elsewhere = effect.periodic or effect.anywhere or effect.after_reversals or not effect.fitted
-    return effect.constant is not None or (not elsewhere and name not in LAGS)
+    return effect.constant is not None or (is_static(name) and effect.fitted)

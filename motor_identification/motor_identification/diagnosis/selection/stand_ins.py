@@ -7,14 +7,13 @@ from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import refit_without
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import likelihood_threshold, share_explained
-from motor_identification.diagnosis.effect_test import list_candidates, sort_by_table, try_effects
+from motor_identification.diagnosis.effect_test import is_static, list_candidates, sort_by_table, try_effects
 from motor_identification.diagnosis.evidence.calm_evidence import explains_calm
 from motor_identification.diagnosis.evidence.standstill_evidence import explains_standstills
 from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
 from motor_identification.discrepancy.free_curves import PAST, REPEATING
 from motor_identification.validation.instants import comes_slowly, needs_instant
-from motor_model.effect import Effect
-from motor_model.effects import EFFECT_BY_NAME, LAGS
+from motor_model.effects import EFFECT_BY_NAME
 
 
 def drop_stand_ins(selection: Selection) -> Selection:
@@ -34,18 +33,13 @@ def drop_stand_ins(selection: Selection) -> Selection:
     past_alone = leaves_mostly(selection.model, (PAST, *REPEATING))
     for i, step in enumerate(selection.steps):
         effect = EFFECT_BY_NAME[step.found.effect]
-        answers = (apart and not effect.anywhere) or (past and effect.holds) or (past_alone and _is_static(effect))
+        answers = (apart and not effect.anywhere) or (past and effect.holds) or (past_alone and is_static(effect.name))
         least = thresholds.SLOW_SHARE if apart and comes_slowly(effect.name) else thresholds.STAND_IN_SHARE
         stays = step.explains > (thresholds.APART_SHARE if answers else least)
         after = selection.steps[i + 1].before if i + 1 < len(selection.steps) else selection.model
         if not stays and not is_own_evidence(step.found.effect, step.before, after):
             return replace(selection, steps=selection.steps[:i], model=step.before)
     return selection
-
-
-def _is_static(effect: Effect) -> bool:
-    """Decide whether speed and voltage of a moment say all that an effect does then."""
-    return not (effect.periodic or effect.anywhere or effect.after_reversals or effect.name in LAGS)
 
 
 def leaves_mostly(model: Model, variables: Sequence[str], minor: float = 0.0) -> bool:

@@ -13,7 +13,7 @@ from motor_identification.diagnosis.candidate_test import (
     predicts_far_worse,
     takes_away_more,
 )
-from motor_identification.diagnosis.effect_test import may_be_gains, sort_by_table
+from motor_identification.diagnosis.effect_test import is_static, sort_by_table
 from motor_identification.diagnosis.evidence.line_evidence import adds_only_lines, count_waves
 from motor_identification.diagnosis.run_gains import find_gap_less_gains, may_be_of_gains
 from motor_identification.diagnosis.selection.backward_elimination import eliminate_backward
@@ -128,7 +128,7 @@ def list_hidden_by_torque(plain: Selection, beside: Selection) -> tuple[str, ...
         return ()
     if learned.gain > 0.0:  # what it leaves besides are the gains, however many were found
         names = {name for step in plain.steps for name in (step.found.effect, *step.rivals)}
-        return sort_by_table(name for name in names if may_be_gains(name))
+        return sort_by_table(name for name in names if is_static(name))
     if not plain.model.complete or len(plain.steps) != 1 or _is_told(learned, held):
         return ()
     found = plain.steps[0]
