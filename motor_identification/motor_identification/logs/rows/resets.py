@@ -16,6 +16,7 @@ FIRST_STEPS, FAR = 5, 10.0  # steps after a run's first, which is wrong where it
 MOST_JUMPS = 8  # to somewhere else: as many are misread values or a potentiometer's gap, more are a range
 SCRAP = 20  # rows between two jumps, below which they are no recording
 BACK_STEPS = 1.5  # usual steps a row that the motor has gone on meanwhile
+WHOLE = 0.01  # of a step, by which one may differ from whole ones
 RESET_STEPS = 3.0  # usual steps from 0, or from a run's first value, within which a counter is said to be reset
 
 ToCounts: TypeAlias = Callable[[Floats], Integers]
@@ -140,18 +141,12 @@ def _in_least_steps(counts: Integers) -> Integers:
     As they are where the motor shows no single step: it never stands from row to row, or not all are multiples of one.
     """
     steps = np.abs(np.diff(counts))
-    if not (steps.any() and np.any(steps == 0)):
+    if not steps.any() or steps.all():
         return counts
-    parts = steps / np.min(steps[steps > 0])
-    return (
-        np.append(0, np.cumsum(np.sign(np.diff(counts)) * np.rint(parts))).astype(np.int64)
-        if _are_whole(parts)
-        else counts
-    )
-
-
-def _are_whole(parts: Floats) -> bool:
-    return bool(np.all(np.abs(parts - np.rint(parts)) < 0.01))
+    least = np.min(steps[steps > 0])
+    parts = (counts - counts[0]) / least
+    whole = np.rint(parts)
+    return whole.astype(np.int64) if np.all(np.abs(np.diff(parts) - np.diff(whole)) < WHOLE) else counts
 
 
 def _times(count: int) -> str:
