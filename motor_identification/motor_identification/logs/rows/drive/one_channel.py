@@ -6,12 +6,12 @@ far it went either way, and it was as fast under either sign. A fit of the motor
 (`estimation/direction_correction.py`).
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from math import inf
 
 import numpy as np
+from scipy.optimize import minimize_scalar
 from scipy.signal import lfilter
 
 from motor_identification.logs.signals import Bools, Floats, Integers, Signals
@@ -26,7 +26,9 @@ ONE_CHANNEL = (
     "the direction is not in it. The motor is taken to turn as it is driven, and a fit reads the directions again by "
     "its motion (assumed; better: log a count of both channels)."
 )
-LAGS = 24  # time constants that are tried, from a row to a quarter of the longest run, evenly by their logarithm
+# Time constants that are tried, from a tenth of a row, within which a motor is there, to a quarter of the longest run,
+# evenly by their logarithm.
+LAGS, SHORTEST = 32, 0.1
 
 
 def find_ways(signals: Signals) -> Floats | None:
@@ -40,7 +42,7 @@ def find_ways(signals: Signals) -> Floats | None:
     if len(signals) < FEWEST or not rises or not np.min(signals.voltage) < 0.0 < np.max(signals.voltage):
         return None
     best_way, both, one_way = None, 1.0, 1.0
-    for driven in _lag_voltage(signals):
+    for driven in (_lag_voltage(signals, rows) for rows in _list_lags(signals)):
         both_left, one_way_left = _compare(signals, driven)
         one_way = min(one_way, one_way_left)
         if both_left < both:
@@ -58,21 +60,37 @@ def compare_signs(signals: Signals, steps: Floats) -> tuple[float, float]:
     parts = _part_alike(signals)
     if parts is None:
         return 1.0, 1.0
-    either_way = signed = inf
-    for driven in _lag_voltage(signals):
-        either_way = min(either_way, parts.leave(np.abs(steps), np.abs(driven)))
-        signed = min(signed, parts.leave(steps, driven))
-    return either_way * parts.vary(np.abs(steps)), signed * parts.vary(steps)
+    moved = np.abs(steps)
+    either_way = _find_least(signals, lambda driven: parts.leave(moved, np.abs(driven)))
+    signed = _find_least(signals, lambda driven: parts.leave(steps, driven))
+    return either_way * parts.vary(moved), signed * parts.vary(steps)
 
 
-def _lag_voltage(signals: Signals) -> Iterator[Floats]:
-    """Lag the voltage (K,) as motors of several time constants follow it, each from rest."""
+def _find_least(signals: Signals, leave: Callable[[Floats], float]) -> float:
+    """Find the least share that is left by a motor that follows its voltage, of any time constant."""
+    tried = _list_lags(signals)
+    left = [leave(_lag_voltage(signals, rows)) for rows in tried]
+    best = int(np.argmin(left))
+    around = np.log(tried[max(best - 1, 0)]), np.log(tried[min(best + 1, len(tried) - 1)])
+    found = minimize_scalar(lambda lag: leave(_lag_voltage(signals, float(np.exp(lag)))), bounds=around)
+    return min(left[best], float(found.fun))
+
+
+def _list_lags(signals: Signals) -> Floats:
+    """List the time constants, in rows, that are tried."""
     longest = max(run.stop - run.start for run in signals.runs.values())
-    for rows in np.geomspace(1.0, max(0.25 * longest, 2.0), LAGS):
-        keep, driven = float(np.exp(-1.0 / rows)), np.zeros(len(signals))
-        for run in signals.runs.values():
-            driven[run.start + 1 : run.stop] = lfilter([1.0 - keep], [1.0, -keep], signals.voltage[run][:-1])
-        yield driven
+    return np.geomspace(SHORTEST, max(0.25 * longest, 2.0), LAGS)
+
+
+def _lag_voltage(signals: Signals, rows: float) -> Floats:
+    """Lag the voltage (K,) as a motor follows it, from rest, of a time constant in rows: its mean over every row."""
+    keep, driven = float(np.exp(-1.0 / rows)), np.zeros(len(signals))
+    for run in signals.runs.values():
+        voltage = signals.voltage[run][:-1]
+        after = lfilter([1.0 - keep], [1.0, -keep], voltage)  # the row
+        before = np.concatenate([[0.0], after[:-1]])[: len(after)]
+        driven[run.start + 1 : run.stop] = voltage + (before - voltage) * rows * (1.0 - keep)
+    return driven
 
 
 def _compare(signals: Signals, driven: Floats) -> tuple[float, float]:

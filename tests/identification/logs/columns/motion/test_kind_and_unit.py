@@ -69,6 +69,18 @@ def test_a_speed_called_by_a_unit_of_angles(said: Said, kind: Kind, unit: str) -
         assert (made.kind, made.unit) == (named, unit if named is kind else "rad")
 
 
+@pytest.mark.parametrize(("least", "unit"), [(1.0, ""), (0.0173, "rad")])
+def test_a_named_position_in_whole_numbers_is_asked_for_as_it_is_no_angle_in_radians(least: float, unit: str) -> None:
+    time = 0.01 * np.arange(1, 101)
+    moved = least * np.floor(300.0 * np.sin(time))
+    notes = Notes([], [])
+    table = Table(Path("log.csv"), np.arange(100), {"t": time, "u": np.repeat([5.0, -5.0], 50), "Position": moved})
+    said = Said(motion="Position", kind=Kind.POSITION)
+    made = make_form(table, Pair("", "u", "Position"), Roles("t", (), None, None), said, ROWS, notes)
+    assert (made.unit == "rad" and notes.questions == []) == bool(unit)
+    assert unit or "in count or deg, which the numbers do not tell: say --unit" in notes.questions[0][1]
+
+
 @pytest.mark.parametrize(("edges", "unit"), [(256, "count"), (360, ""), (None, "")])
 def test_whole_positions_are_counts_where_those_of_a_turn_are_said(edges: int | None, unit: str) -> None:
     time = 0.01 * np.arange(1, 101)

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from one_channel import EDGES, FINE, ROW, counted, drive, turn
+from scipy.signal import lfilter
 
 from motor_identification.logs.form import CsvForm, Kind
 from motor_identification.logs.motion import read_motion
@@ -50,6 +51,19 @@ def test_a_motor_that_turns_round_within_a_row_has_a_sign_of_its_own() -> None:
     """It goes with the voltage, too, but is slow after each change."""
     quick = np.repeat(np.sign(VOLTS), FINE) * np.repeat(np.abs(VOLTS) / 0.05, FINE)
     assert take_off_commands_sign(counted(VOLTS, quick, both=True)) is None
+
+
+@pytest.mark.parametrize("tau", [0.3, 0.5, 1.0])
+def test_a_motor_of_half_a_row_has_a_sign_of_its_own_under_a_voltage_that_changes_in_each(tau: float) -> None:
+    """Its speeds are means over rows, of which a part is of the voltage before: once they were |speeds|, by mistake."""
+    random = np.random.default_rng(4)
+    volts, keep = random.choice([-4.0, 4.0], 600), np.exp(-1.0 / tau)
+    after = lfilter([1.0 - keep], [1.0, -keep], volts)
+    before = np.append(0.0, after[:-1])
+    speeds = (volts + (before - volts) * tau * (1.0 - keep)) / 0.05
+    rounded = np.rint(np.append(0.0, speeds[:-1]) / 0.2) * 0.2
+    signals = counted(volts, np.zeros(FINE * 600))
+    assert take_off_commands_sign_of_speeds(replace(signals, motion=rounded)) is None
 
 
 @pytest.mark.parametrize(("share", "told"), [(0.5 * AGAINST, True), (4.0 * AGAINST, False)])
