@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from diagnosed import fitted, with_effect
 from plant import profiles, record
-from stub_models import same_errors, stub_model, with_effects
+from stub_models import StubModel, same_errors, stub_model, with_effects
 
 from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis import candidate_model, thresholds
@@ -253,6 +253,22 @@ def test_what_the_gap_shows_is_needed_though_its_errors_are_wide(
     assert is_needed(found_step(without, model, effect, rivals), model, without) is needed
     at_sea = replace(model, not_identifiable=("kv",))
     assert not is_needed(found_step(without, at_sea, effect, rivals), at_sea, without)  # as anything is there
+
+
+@pytest.mark.parametrize(
+    ("complete", "without_complete", "needed"), [(True, False, True), (True, True, False), (False, False, False)]
+)
+def test_one_of_several_is_needed_where_all_is_explained_with_it_and_not_without(
+    monkeypatch: pytest.MonkeyPatch, complete: bool, without_complete: bool, needed: bool
+) -> None:
+    """A dead time of 26 ± 9 ms or an inductance, of eight steps, likelier by 253, was told as nothing determined."""
+    monkeypatch.setattr(determination, "find_limits_hit", lambda model: ())
+    model, without = stub_model(2.0, 0.0), stub_model(4.0, 0.0)
+    is_complete = {id(model): complete, id(without): without_complete}
+    monkeypatch.setattr(StubModel, "complete", property(lambda one: is_complete[id(one)]))
+    monkeypatch.setattr(determination, "is_chance_size", lambda effect, model: False)
+    step = found_step(without, model, "transport_delay", ("armature_inductance",))
+    assert is_needed(step, model, without) is needed
 
 
 @pytest.mark.parametrize(
