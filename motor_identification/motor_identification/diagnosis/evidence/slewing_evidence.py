@@ -27,6 +27,7 @@ from motor_model.effects import EFFECT_BY_NAME, LAGS
 
 CAUSE = "a command that reaches the motor at {:.3g} V/s at most (a ramp or soft start of the controller)"
 APART = 1.6  # of rates tried about that which makes the command as late as the lag
+LONG_ROW = 1.5  # times the usual row: rows before it were lost, and what was commanded in them is not known
 PRECISION, MOST_FITS = 0.03, 8  # of the logarithm of the rate, and fits that find it
 
 
@@ -105,18 +106,28 @@ def _describe(slewing: Estimate, without: Model, gain: float, rate: float) -> St
 
 
 def slew(recording: Recording, rate: float) -> Recording:
-    """Make a recording's command slew at a rate [V/s]: the mean of every row."""
+    """Make a recording's command slew at a rate [V/s]: the mean of every row; not where rows were lost.
+
+    Measured: of a loop whose log lost 8 % of its rows, such a bridge came nearer to the commands that nobody logged
+    than the next that was, and was made up: 13 % of what was left at 0.98 of the floor.
+    """
     given = np.empty_like(recording.voltage)
     durations = np.diff(recording.time, append=recording.time[-1] + recording.info.sample_period)
-    follow(recording.voltage, durations, rate, given)
+    follow(recording.voltage, durations, rate, LONG_ROW * float(np.median(durations)), given)
     return replace(recording, voltage=given)
 
 
 @compiled
-def follow(command: Floats, duration: Floats, rate: float, given: Floats) -> None:
-    """Average [V] what follows a command [V] at a rate [V/s] over rows of durations [s], all of shape (S,)."""
+def follow(command: Floats, duration: Floats, rate: float, longest: float, given: Floats) -> None:
+    """Average [V] what follows a command [V] at a rate [V/s] over rows of durations [s], all of shape (S,).
+
+    In rows longer than the longest [s] it is there at once.
+    """
     output = command[0]
     for s in range(len(command)):
+        if duration[s] > longest:
+            given[s] = output = command[s]
+            continue
         change = command[s] - output
         way = 1.0 if change > 0.0 else -1.0
         possible = rate * duration[s]

@@ -9,7 +9,7 @@ from plant import profiles, record
 from stand_ins import is_taken_back, select_beside_friction
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.evidence.slewing_evidence import find_slewing, follow
+from motor_identification.diagnosis.evidence.slewing_evidence import find_slewing, follow, slew
 from motor_identification.diagnosis.selection.backward_elimination import eliminate_backward
 from motor_identification.diagnosis.selection.selection import Selection
 from motor_identification.progress import ProgressReporter
@@ -77,5 +77,19 @@ def test_a_slewing_output_follows_in_rows_means() -> None:
     for rate, means in ((200.0, [0, 1, 3, 5, 7, 9, 10]), (400.0, [0, 2, 6, 9.5, 10, 10, 10])):
         for sign in (1.0, -1.0):
             given = np.empty_like(command)
-            follow(sign * command, np.full(7, row), rate, given)
+            follow(sign * command, np.full(7, row), rate, np.inf, given)
             np.testing.assert_allclose(given, sign * np.array(means), atol=1e-12)
+
+
+def test_a_row_in_which_others_were_lost_has_its_own_command_from_its_start() -> None:
+    """Of a log that lost rows such a bridge came nearer to the commands that nobody logged, and was made up."""
+    (step,) = selected("slewing").steps
+    recording = step.found.model.estimate.problem.recordings[0]
+    time = recording.time.copy()
+    time[50:] += 10.0 * recording.info.sample_period  # row 49 is eleven long
+    time[100:] += 0.3 * recording.info.sample_period
+    changed = replace(recording, sample_time=np.rint(time * 1e9).astype(np.int64))
+    voltage = np.where(np.arange(len(time)) % 50 >= 49, 6.0, -6.0)
+    given = slew(replace(changed, voltage=voltage), 600.0)
+    assert given.voltage[49] == 6.0 and given.voltage[50] > -6.0  # and follows from there
+    assert given.voltage[99] < 6.0  # no row was lost
