@@ -24,6 +24,8 @@ COUNT_NOISE = sqrt(20.0 / 6.0 / 12.0)
 NEAR_WHOLE, MOSTLY_WHOLE, SMOOTHER = 0.05, 0.75, 0.5
 UNTOLD = 0.01  # of the typical speed: the noise of values too few to tell it, such as those of a static curve
 PRINTED_UNITS = (1.0, radians(1.0), tau / 60.0, tau)  # rad/s, deg/s, rpm, turns/s
+# Nobody prints whole turns a second: those are counts of 100 a turn in rows of 10 ms, of 1,000 in 1 ms.
+WHOLE_TURNS = 0.5
 SAME_DIGIT = 1e-3  # of a decade
 # Digits of rad/s are no counts: those are a part of a turn. Nor are digits of other units that would be so many of a
 # turn: encoders have up to 8192 on a shaft, 20,000 if they are dear. Of the last digit: how exactly values are whole.
@@ -181,7 +183,7 @@ def _list_digits(values: Floats, step: float) -> list[tuple[float, float]]:
     near = [
         (unit, unit * 10.0 ** round(place))
         for unit, place in places
-        if place < 0.5 and abs(place - round(place)) < SAME_DIGIT
+        if place < 0.5 and abs(place - round(place)) < SAME_DIGIT and not (unit == tau and step > WHOLE_TURNS * tau)
     ]
     return [
         (unit, digit) for unit, digit in near if np.all(np.abs(values / digit - np.rint(values / digit)) < WHOLE_DIGIT)

@@ -151,6 +151,16 @@ def test_a_lattice_of_printed_digits_is_none_of_counts(step: float, window: floa
     assert counts or sigma >= step / sqrt(12.0)
 
 
+@pytest.mark.parametrize(("step", "window", "counts"), [(tau, 0.01, 100), (tau, 0.001, 1000), (0.1 * tau, 0.01, 0)])
+def test_whole_turns_a_second_are_counts_and_their_tenths_may_be_digits(
+    step: float, window: float, counts: int
+) -> None:
+    """Of 100 counts a turn in rows of 10 ms an eccentric disc made noise of more than a digit: it was not looked for."""
+    level = 40.0 * np.sin(np.linspace(0.0, 40.0, 1000)) + 1.5 * np.random.default_rng(3).standard_normal(1000)
+    found, sigma, edges = find_noise(step * np.rint(level), np.ones(1000), window)
+    assert (found > 0.0, edges) == (counts > 0, counts) and (sigma > 0.0) is (counts == 0)
+
+
 @pytest.mark.parametrize(("near", "counts"), [(1e-5, 0), (3.5e-4, 12562)])
 def test_counts_that_come_near_to_a_digit_keep_the_motion_between_rows(near: float, counts: int) -> None:
     """Where speeds change by counts a row, a lattice of digits is taken for noise; one of 0.10003 rad/s is none."""

@@ -130,8 +130,8 @@ def _try_all_effects(selection: Selection, reporter: ProgressReporter) -> list[C
     if best is None or best.model.above_floor:
         periodic = filter(_is_periodic, left)
         for effect in sorted(periodic, key=count_parameters):  # an eccentricity is a line in a ripple's spectrum too
-            least = max((test.evidence for test in tests), default=0.0)
-            tests += try_effects(current, selection.hold_out, [effect], selection.workers, heard, max(least, 0.0))
+            least = max((test.evidence for test in tests if is_supported(test) and test.relevant), default=0.0)
+            tests += try_effects(current, selection.hold_out, [effect], selection.workers, heard, least)
         if LOAD_OVER_ANGLE in left and (_has_disc_of_few_turns(tests) or _may_be_load_once_a_turn(tests, current)):
             again = try_load_once_a_turn(current, selection.hold_out)
             if _has_disc_of_few_turns(tests) or _is_seen_in_gap(again):

@@ -95,6 +95,28 @@ def test_a_selection_ends_where_another_went_on(monkeypatch: pytest.MonkeyPatch,
     assert len(found.steps) == count
 
 
+@pytest.mark.parametrize("relevant", [True, False])
+def test_a_line_has_to_promise_more_than_what_may_be_found_and_no_more(
+    monkeypatch: pytest.MonkeyPatch, relevant: bool
+) -> None:
+    """A ripple worth 2,644 was not tried: a load that left most of the gap was likelier than its spectrum promised."""
+    Fake(monkeypatch, [])
+    monkeypatch.setattr(forward_selection, "list_candidates", lambda *_: ["load_bias", "torque_ripple"])
+    promised: list[float] = []
+
+    def try_effects(current: Model, hold_out: Any, effects: list[str], *rest: Any) -> list[CandidateTest]:
+        if effects == ["torque_ripple"]:
+            promised.extend(rest[2:])
+        likely = 1000.0 * (effects == ["load_bias"])
+        return [stub_test(name, current, 1.0 + 7.0 * (not relevant) * bool(likely), likely) for name in effects]
+
+    monkeypatch.setattr(forward_selection, "try_effects", try_effects)
+    monkeypatch.setattr(forward_selection, "choose_finding", lambda tests: None)
+    monkeypatch.setattr(forward_selection, "find_pair", lambda *_: [])
+    select_forward(selection_of(stub_model(9.0)), SILENT, pairs=False)
+    assert promised == [1000.0 if relevant else 0.0]
+
+
 def test_no_more_findings_than_the_most(monkeypatch: pytest.MonkeyPatch) -> None:
     gaps = [100.0 * 0.5**k for k in range(1, 12)]
     Fake(monkeypatch, [gap for gap in gaps if gap > 2.0])
