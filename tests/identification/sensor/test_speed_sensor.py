@@ -155,7 +155,7 @@ def test_a_lattice_of_printed_digits_is_none_of_counts(step: float, window: floa
 def test_whole_turns_a_second_are_counts_and_their_tenths_may_be_digits(
     step: float, window: float, counts: int
 ) -> None:
-    """Of 100 counts a turn in rows of 10 ms an eccentric disc made noise of more than a digit: it was not looked for."""
+    """An eccentric disc of 100 counts a turn made noise of more than such a digit, and was not looked for."""
     level = 40.0 * np.sin(np.linspace(0.0, 40.0, 1000)) + 1.5 * np.random.default_rng(3).standard_normal(1000)
     found, sigma, edges = find_noise(step * np.rint(level), np.ones(1000), window)
     assert (found > 0.0, edges) == (counts > 0, counts) and (sigma > 0.0) is (counts == 0)

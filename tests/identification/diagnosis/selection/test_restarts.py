@@ -87,12 +87,14 @@ def test_another_first_effect_that_leads_to_the_same_motion_is_a_rival(
     [
         (thresholds.MANY_STEPS, 2, 1.0, 0.0, True),
         (thresholds.MANY_STEPS - 1, 1, 1.0, 0.0, False),  # a few findings are not doubted
-        (thresholds.MANY_STEPS, thresholds.MANY_STEPS, 1.0, 9.0, False),  # the same in another order
+        (thresholds.MANY_STEPS, thresholds.MANY_STEPS, 1.0, 7.0, False),  # the same in another order
+        (thresholds.MANY_STEPS, thresholds.MANY_STEPS, 1.0, 9.0, True),  # as many, of which one is another
+        (thresholds.MANY_STEPS, thresholds.MANY_STEPS + 1, 1.0, 9.0, False),
         (thresholds.MANY_STEPS, 2, 1.0, -0.1, False),
         (thresholds.MANY_STEPS, 2, 4.0, 9.0, False),  # it explains less
     ],
 )
-def test_of_two_complete_models_the_one_with_fewer_findings_is_taken(
+def test_of_two_complete_models_the_one_with_fewer_findings_is_taken_or_the_likelier_one(
     monkeypatch: pytest.MonkeyPatch, steps: int, further: int, gap: float, likelier: float, taken: bool
 ) -> None:
     before = stub_model(9.0)

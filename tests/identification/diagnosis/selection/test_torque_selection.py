@@ -50,6 +50,20 @@ def test_a_gap_that_was_fitted_is_no_prediction(
     assert (selected(monkeypatch, plain, begun, ended) is ended) is believed
 
 
+@pytest.mark.parametrize(("times", "believed"), [(0.999, True), (1.001, False)])
+def test_a_prediction_is_compared_with_that_of_findings_that_stay(
+    times: float, believed: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A load and a coasting bridge left 3.1 rad/s, and stood in for three others: two of those left 8.8 of 9.0."""
+    before = seen(stub_model(8.0), False)
+    stands_in = step_of(stub_test("load_bias", before, 3.0, 100.0))
+    plain = selection_of(seen(stub_model(3.0), False), stands_in)
+    monkeypatch.setattr(module, "drop_stand_ins_of_either", lambda one, other: selection_of(before))
+    begun = selection_of(rescored(plain.model, likelihood=0.0), stands_in)
+    ended = selection_of(seen(stub_model(times * thresholds.WORSE_GAP * 8.0), False))
+    assert (selected(monkeypatch, plain, begun, ended) is ended) is believed
+
+
 @pytest.mark.parametrize(("times", "believed"), [(0.99, True), (1.01, False)])
 def test_a_torque_in_the_place_of_the_motor_is_none(
     times: float, believed: bool, monkeypatch: pytest.MonkeyPatch
