@@ -13,7 +13,7 @@ from motor_model.gearing.gear import angle_of_count
 from motor_model.sample import Info, Sample
 from motor_msgs.msg import MotorInfo, MotorSpeed, MotorVoltage
 from motor_ros import qos
-from motor_ros.clocks.hold_ups import HoldUps
+from motor_ros.clocks.hold_ups import STOOD_STILL, HoldUps
 from motor_ros.gate import AWAY, CONFLICT, OFF, STOPPED, Gate
 from motor_ros.graph.callers import Callers
 from motor_ros.graph.commanders import Commanders
@@ -64,6 +64,7 @@ class Plant:
         self._best_effort = Unheard(node, "motor/voltage")
         self._unheard = 0  # diagnostics in a row in which nobody heard references
         self._old, self._old_at = "", 0  # the latest voltage with an old stamp, as a sentence, and when [ns] that was
+        self._hold_ups = HoldUps(node)
         self._input = NumberedInput(
             node,
             MotorVoltage,
@@ -71,7 +72,7 @@ class Plant:
             qos.COMMANDS,
             self._on_voltage,
             rings=changed,
-            hold_ups=HoldUps(node),
+            hold_ups=self._hold_ups,
             commanders=self._commanders,
             counts=lambda message, arrival: self.gate.goes_on(message.header.frame_id, arrival.number, arrival.at),
         )
@@ -196,7 +197,7 @@ class Plant:
         was_on = self.gate.enabled
         self._changed()  # a stop that is due comes before what is asked for now
         now = time.monotonic_ns()
-        refusal = (self.gate.refusal(now) or self._find_others(now) or self._refusal()) if request.data else ""
+        refusal = self._find_refusal(now) if request.data else ""
         self.gate = self.gate.call(now) if request.data else self.gate
         if request.data and was_on and not self.gate.enabled:
             refusal = JUST_NOW.format(self.gate.stopped)
@@ -210,6 +211,15 @@ class Plant:
         response.success = True
         response.message = "The output is on." if request.data else OFF
         return response
+
+    def _find_refusal(self, now: int) -> str:
+        """Find why the output may not be switched on at `now` [ns], as a sentence; empty if it may.
+
+        What was called while this process stood still is carried out when it goes on, and whoever called then may have
+        given up long ago.
+        """
+        stood = STOOD_STILL if self._hold_ups.bars(0) else ""
+        return self.gate.refusal(now) or stood or self._find_others(now) or self._refusal()
 
     def _refuse(self, _: SetBool.Request, response: SetBool.Response, why: str) -> SetBool.Response:
         response.success, response.message = False, f"{STAYS[self.gate.enabled]} {why}"

@@ -16,6 +16,7 @@ from workbench import Bench
 from motor_model.sample import Info, Sample
 from motor_msgs.msg import MotorInfo, MotorVoltage
 from motor_ros import qos
+from motor_ros.clocks.hold_ups import STOOD_STILL, HoldUps
 from motor_ros.gate import Gate
 from motor_ros.graph.acquaintances import Verdict
 from motor_ros.messages import info_message, time_message
@@ -51,6 +52,23 @@ def test_what_keeps_the_output_off_is_said(bench: Bench) -> None:
     assert asked(plant, True) == (False, f"The output is on, and the motor stays at 0 V. {why}")
     assert asked(plant, False)[0]
     assert asked(plant, True) == (False, f"The output stays off. {why}")
+
+
+def test_what_was_called_while_the_plant_stood_still_switches_nothing_on(bench: Bench) -> None:
+    """Its user had switched the motor off; 80 ms after the plant went on it ran, at a voltage that was still sent."""
+    now = [100.0]
+    plant = Plant(bench.node, Info(), Gate(True, 0.1))
+    plant._hold_ups = HoldUps(bench.node, lambda: now[0])
+    assert not plant._hold_ups.in_doubt() and asked(plant, True)[0]  # it runs
+    assert asked(plant, False)[0]
+    now[0] += 5.0
+    assert asked(plant, True) == (False, f"The output stays off. {STOOD_STILL}") and not plant.gate.enabled
+    assert asked(plant, False)[0]  # whenever that was
+    for _ in range(4):
+        assert not asked(plant, True)[0]
+        now[0] += 0.9
+        plant._hold_ups.in_doubt()  # it looks
+    assert asked(plant, True)[0] and plant.gate.enabled
 
 
 @pytest.mark.parametrize(("waited", "volts"), [(True, 0.0), (False, 6.0)])
