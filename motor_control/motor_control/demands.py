@@ -19,7 +19,7 @@ from std_msgs.msg import Float64
 
 from motor_control.controller import controller
 from motor_control.controller.controller import Config, State
-from motor_control.controller.reference.demand import Demand, Kind
+from motor_control.controller.reference.demand import Demand, Kind, Source
 from motor_control.controller.state import EARLIER, introduce, meet_players
 from motor_control.messages import joint_demand_of
 from motor_ros import qos
@@ -34,6 +34,11 @@ AT_ONCE = 1_000_000  # [ns] within which of two messages of two clock readings e
 OLD = (
     "The stamp of motor/joint_command is {:.3g} s {}, as in a recording that is played: set both computers' clocks, or "
     "leave the stamp empty."
+)
+
+LEFT = (
+    "Whoever sent references has ended, and the motor goes on at the last of them, {:.4g} rad/s: send 0, call "
+    "motor/release, or set reference_timeout."
 )
 
 
@@ -69,6 +74,18 @@ class Demands:
             return state
         names = ", ".join(publishers_of(self._node, TOPICS[2]))
         return replace(state, joint_senders=f"({names})" if several else "")
+
+    def left(self, config: Config, state: State) -> str:
+        """Say that the motor goes on at the last of a stream of references, whose sender is gone; "" if it does not.
+
+        A single reference is meant to hold when the command that sent it has ended; one of a joystick is not.
+        """
+        demand = state.demand
+        if demand is None or demand.source is not Source.REFERENCE or demand.kind is not Kind.SPEED:
+            return ""
+        holds = demand.value != 0.0 and config.reference_timeout == 0.0 and state.references.streams
+        there = sum(map(self._node.count_publishers, self._resolved[:2]))
+        return LEFT.format(demand.value) if holds and not there else ""
 
     def _input(
         self, kind: type, topic: str, take: Callable[[Any, Arrival], None], counts: Counts = never

@@ -78,9 +78,9 @@ class MotorControl(Node):
             self._answers.announce_silence(output, self._settings.config, self._state.demand)
 
     def _on_second(self) -> None:
-        self._answers.diagnose(
-            self._settings.config, self._state.demand, self._neighbours.missing(), self._unheard.look()
-        )
+        config, state = self._settings.config, self._state
+        missing = self._neighbours.missing() or self._demands.left(config, state)
+        self._answers.diagnose(config, state.demand, missing, self._unheard.look())
 
     def _poll(self) -> None:
         """Take what is asked for, before what acts on it."""

@@ -182,6 +182,12 @@ class Senders:
         """Whether somebody may go on, since time alone has ended what he asked for."""
         return self.forgiven == self.ended or any(one.forgiven == self.ended for one in self.known)
 
+    @property
+    def streams(self) -> bool:
+        """Whether what is asked for is the latest message of a stream: who is obeyed has sent more than one."""
+        obeyed = [one for one in self.known if one.obeyed == self.ended]
+        return bool(obeyed) and obeyed[-1].is_stream
+
     def trust_single(self) -> "Senders":
         """Take a sender that has asked once for no stream: somebody who looks expects the same again."""
         known = (replace(one, sequence=replace(one.sequence, single=nan)) for one in self.known)
