@@ -33,7 +33,7 @@ from motor_examples.diff_drive.kinematics import (
     limit_wheels,
     wheel_speeds,
 )
-from motor_examples.diff_drive.wheel import Wheel, awaits_answer, find_trouble
+from motor_examples.diff_drive.wheel import SILENCE, Wheel, awaits_answer, find_trouble
 from motor_model.streams.senders import Message, Senders
 from motor_model.streams.sequence import LONGEST
 
@@ -233,7 +233,7 @@ def _drop_stale(config: Config, state: State, now: float) -> State:
 
 
 def _stands(state: State, wheels: tuple[Wheel, Wheel], now: float) -> bool:
-    """Whether both wheels stand after their 0 rad/s, or had their time to."""
+    """Whether both wheels stand after their 0 rad/s, or had their time to; one that is not heard has nothing to say."""
     still = 0.0 if state.still_since is None else now - state.still_since
-    seen = all(wheel.sample is not None and wheel.speed == 0.0 for wheel in wheels)
+    seen = all(wheel.sample is not None and wheel.speed == 0.0 for wheel in wheels if now - wheel.heard <= SILENCE)
     return still > PATIENCE or (seen and still > STANDING)

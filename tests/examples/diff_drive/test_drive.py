@@ -26,6 +26,7 @@ class Robot:
         self.said = {"left": "running", "right": "running"}
         self.unsaid: float | None = None  # [s] since when the left controller has not said how long it goes on alone
         self.rivals = ""  # who else controls the left wheel
+        self.lost: Wheel | None = None  # the left wheel, since nothing is heard of it
         self.slip = Wheels(1.0, 1.0)  # share of what is asked for that each wheel turns
         self.edges = [0.0, 0.0]
         self.decisions: list[drive.Decision] = []
@@ -46,7 +47,7 @@ class Robot:
         for _ in range(round(duration / DT)):
             if twist is not None:
                 self.send(twist)
-            wheels = (self.wheel(0, "left"), self.wheel(1, "right"))
+            wheels = (self.lost or self.wheel(0, "left"), self.wheel(1, "right"))
             decision, self.state = drive.step(self.config, self.state, wheels, self.now)
             self.speeds = decision.references or Wheels(0.0, 0.0)
             for side in range(2):
@@ -81,6 +82,19 @@ def test_a_stale_velocity_slows_down_then_lets_go_once() -> None:
     assert [one.release for one in told].count(True) == 1
     assert told[-1].references is None and told[-1].reason == drive.STALE.format(0.5)
     assert robot.run(DT, SPEED).references is not None  # and goes on with the next
+
+
+def test_beside_a_wheel_that_is_lost_in_motion_the_other_one_is_let_go_as_soon_as_it_stands() -> None:
+    """It was held at 0 rad/s for 2 s, and hunted there: the lost one had turned when it was last heard."""
+    robot = Robot(timeout=0.0)
+    robot.run(1.0, SPEED)
+    robot.lost, begun = robot.wheel(0, "left"), len(robot.decisions)
+    robot.run(3.0)
+    told = robot.decisions[begun:]
+    stopped = next(k for k, one in enumerate(told) if one.references == Wheels(0.0, 0.0))
+    released = next(k for k, one in enumerate(told) if one.release)
+    assert drive.STANDING <= (released - stopped) * DT <= drive.STANDING + 2 * DT
+    assert [one.release for one in told].count(True) == 1
 
 
 def test_without_a_timeout_a_velocity_holds() -> None:
