@@ -437,3 +437,28 @@ def test_who_calls_until_he_is_heard_is_heard() -> None:
     for at in range(50):
         plant = plant.call(T0 + at * MS)
     assert not plant.refusal(T0 + 50 * MS)
+
+
+def test_calls_that_a_hand_makes_far_apart_are_no_insistence() -> None:
+    """Whoever switched on what was on, now and then through the day, may switch on again at once."""
+    plant, at = gate(), T0
+    for at in range(T0, T0 + 5 * (PAUSE + 1), PAUSE + 1):
+        plant = plant.call(at)
+    assert not plant.enable(False, at + MS).refusal(at + 2 * MS)
+
+
+def test_what_a_motor_does_while_the_output_is_off_is_no_further_stop() -> None:
+    """One that is turned by hand after a stop, say: who has seen to it need not wait."""
+    plant = gate().stop_motor("it was blocked", T0)
+    for after in range(1, 10):
+        plant = plant.stop_motor("it was blocked", T0 + after * MS)
+    assert plant.faults.count == 1 and not plant.refusal(T0 + 20 * MS)
+    assert plant.enable(True, T0 + 20 * MS).stop_motor("it was blocked", T0 + 30 * MS).refusal(T0 + 40 * MS)
+
+
+def test_what_is_not_a_number_stops_beside_a_sender_that_has_long_been_silent() -> None:
+    """Its last voltage still acts where command_timeout is long: nobody can tell any more whose the next message is."""
+    plant = stream(gate(timeout=10.0), 6.0, range(0, 100, 5), 1, "one")
+    heard = T0 + 95 * MS
+    assert plant.take(nan, heard + HOLD, "another", 1).voltage(heard + HOLD) == 6.0
+    assert plant.take(nan, heard + HOLD + 1, "another", 1).voltage(heard + HOLD + 1) == 0.0
