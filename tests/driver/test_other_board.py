@@ -102,3 +102,40 @@ def test_the_same_board_on_a_port_that_was_away_goes_on() -> None:
     board.plug()
     board.run(100)
     assert not any(reading.restarted for reading in board.readings)
+
+
+def said_by(board: Board, time: int, command: int) -> str:
+    """Why the driver stops at a sample of a time [tick] that names the command that was obeyed; "" if it goes on."""
+    board.now += 5_000_000
+    board.say(replace(TELEMETRY, time=time, duty=128, flags=Flag.ENABLED, boot=board.hello.boot, command=command))
+    order = board.driver.step(board.now, True, 6.0)
+    sent = [event.frame for event in board.decoder.receive(order.data) if isinstance(event, Arrival)]
+    assert not (order.stop and Enable(1, board.hello.boot, TELEMETRY.latch) in sent)  # a stop switches nothing on
+    return order.stop
+
+
+def driven_board() -> tuple[Board, int]:
+    """A board whose motor is driven, and the number of the latest command that it was sent."""
+    board = Board(Driver(Config(stall_time=0.0)), HELLO)
+    board.plug()
+    board.run(100)
+    assert board.driver.session is not None and board.enabled
+    return board, board.driver.session.encoder.seq - 1
+
+
+def test_a_board_that_obeys_an_old_command_again_is_a_stop() -> None:
+    """What the driver had sent before was written to the port once more, and the motor followed that."""
+    board, latest = driven_board()
+    assert said_by(board, board.time + 10_000, latest) == ""
+    assert said_by(board, board.time + 20_000, latest) == ""  # none came since
+    assert "obeyed a command that this driver had not sent, or an old one" in said_by(
+        board, board.time + 30_000, latest - 3
+    )
+
+
+def test_a_board_whose_clock_starts_anew_is_a_stop_though_it_says_that_it_is_the_same_start() -> None:
+    """So is what a board has said, if it is read again."""
+    board, latest = driven_board()
+    assert said_by(board, board.time + 10_000, latest) == ""
+    assert said_by(board, 10_000, latest) == "the board was reset (its clock started anew)"
+    assert not board.driver.runs and board.driver.resets == 1

@@ -45,6 +45,15 @@ def test_the_users_off_is_asked_for_at_once() -> None:
     assert not switch.hear(enabled(False)) and switch.output is Output.OFF
 
 
+def test_the_users_off_does_not_wait_for_a_board_that_has_not_said_on_yet() -> None:
+    switch = Switch()
+    assert switch.asks(True, TELEMETRY, 0) == Enable(1, TELEMETRY.boot, TELEMETRY.latch)
+    assert switch.asks(False, TELEMETRY, 1) == Enable(0) and not switch.listening
+    assert switch.asks(False, TELEMETRY, 1 + ASK_EVERY) == Enable(0)  # again, until it says off
+    assert not switch.hear(enabled(False)) and switch.output is Output.OFF
+    assert not switch.hear(enabled()) and switch.asks(False, TELEMETRY, 2 * ASK_EVERY) == Enable(0)  # and is on yet
+
+
 def test_a_board_that_switches_off_by_itself_is_noticed_once() -> None:
     switch = turned_on()
     assert switch.hear(enabled(False)) and switch.output is Output.OFF
