@@ -92,6 +92,12 @@ def test_answers_that_a_noisy_line_has_lost_are_not_late() -> None:
         assert not exchange.late
 
 
+def test_what_was_lost_before_two_that_come_late_does_not_count_with_them() -> None:
+    exchange = exchange_after(10, {9: 120, 10: 121})
+    exchange.look(10 * PING_EVERY + 122_000_000)
+    assert not exchange.late
+
+
 def test_a_sample_without_a_fit_is_as_old_as_its_bytes() -> None:
     exchange = Exchange(BAUD)
     instant = exchange.hear_telemetry(1_500_000_000, 40_000_000)

@@ -148,3 +148,11 @@ def test_an_answer_that_says_otherwise_than_the_hello_before_is_refused(change: 
     assert not shaken.hear(replace(ANSWER, **change)) and shaken.phase is Phase.CONFIGURE
     assert shaken.problem(0)
     assert shaken.hear(ANSWER) and shaken.problem(0) == ""
+
+
+def test_at_a_roll_call_a_board_is_asked_who_it_is_and_nothing_else() -> None:
+    """It may drive another one's motor, whose driver a configure would switch off."""
+    shaken = Handshake(Config(), "the port", 0, roll_call=True)
+    assert shaken.asks(0) == Identify()
+    assert not shaken.hear(HELLO) and shaken.matches and shaken.phase is Phase.IDENTIFY
+    assert shaken.asks(10 * ASK_EVERY) == Identify()

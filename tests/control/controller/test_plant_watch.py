@@ -54,3 +54,23 @@ def test_a_plant_that_is_started_again_may_sample_more_often(told_after: float, 
         seen.append(state)
     assert [one.restarted for one in seen].index(True) == 0 and sum(one.restarted for one in seen) == 1
     assert any(one.two for one in seen) is two
+
+
+def test_a_board_that_was_reset_counts_anew_while_its_drivers_clock_goes_on() -> None:
+    """Of an edge there is none yet, where there had been one: an angle that was asked for is somewhere else."""
+    edges = [(0, 0), (0, 0), (7, 12_000_000), (8, 14_000_000), (0, 0), (0, 0), (1, 27_000_000)]
+    state: PlantWatch | None = None
+    seen = []
+    for k, (count, edge_time) in enumerate(edges):
+        state = watch_plant(state, Sample(PERIOD * k, 0.0, 0.0, count, edge_time), 0.005 * k, 0.005)
+        seen.append(state)
+    assert [one.restarted for one in seen] == [False] * 4 + [True, False, False]
+    assert not any(one.two for one in seen)
+
+
+@pytest.mark.parametrize(("apart", "two"), [(0.4, True), (0.6, False)])
+def test_a_second_step_out_of_order_within_half_a_second_is_another_plants(apart: float, two: bool) -> None:
+    state = None
+    for now, time in ((0.0, 100 * PERIOD), (0.005, PERIOD), (0.005 + apart, 0)):
+        state = watch_plant(state, Sample(time, 0.0, 0.0, 0), now, 0.005)
+    assert state is not None and state.two is two
