@@ -95,3 +95,21 @@ def test_heat_outlives_a_reset_and_garbage_is_none() -> None:
         fresh = core.Guard()
         core.load().guard_recall(byref(fresh), byref(memory))
         assert fresh.heat == heat
+
+
+def test_no_budget_is_so_large_that_heat_goes_round_below_it() -> None:
+    """The largest current for 2 s a sample: one lasts, the second is off, and so it stays."""
+    guard = guard_with(0, 1023, 0, 2**32 - 1)
+    assert guard.limits.budget == MOST_BUDGET
+    verdicts = [core.load().guard_check(byref(guard), 1023, 2**24) for _ in range(20)]
+    assert verdicts == [WELL] + [OVERCURRENT] * 19
+
+
+def test_new_limits_count_from_the_next_sample_on() -> None:
+    guard, check = guard_with(512, 100, 1023, MOST_BUDGET), core.load().guard_check
+    assert check(byref(guard), 700, 2_000) == WELL  # the first of two
+    core.load().guard_set(byref(guard), byref(core.WireProtect(512, 100, 1023, MOST_BUDGET)))
+    assert [check(byref(guard), 700, 2_000) for _ in range(2)] == [WELL, OVERCURRENT]
+    assert [check(byref(guard), UNKNOWN, 2_000) for _ in range(9)][-1] == OVERCURRENT  # the latest one holds
+    core.load().guard_set(byref(guard), byref(core.WireProtect(512, 100, 1023, MOST_BUDGET)))
+    assert [check(byref(guard), UNKNOWN, 2_000) for _ in range(10)] == [WELL] * 9 + [BLIND]

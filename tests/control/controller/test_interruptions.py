@@ -90,3 +90,17 @@ def test_one_that_lasts_is_one() -> None:
         assert not reason and state.count == 1
     reason, state = count_interruption(state, "", 1.0)
     assert not reason and not state.bad and state.count == 1
+
+
+@pytest.mark.parametrize(
+    ("stall_time", "apart", "stops"), [(0.1, 0.9, True), (0.0, 0.9, True), (0.1, 1.1, False), (2.0, 3.9, True)]
+)
+def test_interruptions_within_a_second_or_twice_the_stall_time_are_of_one_cause(
+    stall_time: float, apart: float, stops: bool
+) -> None:
+    """However quickly the other checks tell."""
+    state, said = Interruptions(), ""
+    for k in range(3):
+        said, state = count_interruption(state, "Nothing.", k * apart, stall_time)
+        _, state = count_interruption(state, "", k * apart + 0.01, stall_time)
+    assert bool(said) is stops
