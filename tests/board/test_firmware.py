@@ -166,6 +166,21 @@ def test_a_program_that_hangs_is_reset_by_the_watchdog(bench: Bench, how: Hang) 
     assert bench.chip.pins.share == 0.0 and bench.chip.resets == 1  # runs on, off
 
 
+@pytest.mark.parametrize("how", Hang, ids=lambda how: how.name.lower())
+def test_commands_that_keep_coming_hold_off_no_watchdog_of_a_program_that_hangs(bench: Bench, how: Hang) -> None:
+    """Each wakes the main loop: where that alone goes on, no tick notices that a command is missing."""
+    bench.start()
+    bench.drive(256, 100)
+    hung = bench.chip.cycle
+    bench.chip.hang(how)
+    while bench.chip.resets == 0:
+        assert bench.chip.cycle - hung <= 85 * MS
+        bench.drive(256, 2, 1)
+    assert bench.chip.pins.share == 0.0
+    bench.drive(256, 50)
+    assert bench.chip.pins.share == 0.0 and bench.chip.resets == 1
+
+
 @on_each_chip
 @pytest.mark.parametrize("after", [20, 200, 2_000, 20_000, 60_000])  # [cycle]
 def test_a_program_that_hangs_while_it_boots_drives_nothing(bench: Bench, after: int) -> None:
