@@ -11,6 +11,7 @@ from motor_control.controller.controller import State
 from motor_control.controller.plant_watch import PlantWatch
 from motor_control.controller.reference.demand import Demand, Kind, Source
 from motor_control.controller.reference.ending import AWAY, OFF, drop_old_reference
+from motor_control.controller.speed_law import IGNORED_TIME
 from motor_model.sample import Info, Sample
 from motor_model.sensing.mains_rhythm import Rhythm
 
@@ -97,3 +98,16 @@ def test_a_plant_that_ignores_voltages_ends_it(times: float, ends: bool) -> None
     assert (after.demand is None) is ends and ("motor/enable" in after.dropped) is ends
     asked_again = replace(state, arrival=5.0, begun=5.0, referred=5.0, run=replace(state.run, ignored=times * OFF))
     assert (end(asked_again, 5.0).demand is None) is ends
+
+
+@pytest.mark.parametrize(("times", "goes_on"), [(BELOW, True), (ABOVE, False)])
+def test_a_stream_slower_than_its_timeout_does_not_go_on_with_a_plant_whose_output_was_off(
+    times: float, goes_on: bool
+) -> None:
+    """What it asks for never lasts as long as a plant may ignore voltages; its next message would start the motor."""
+    state = controller.update(CONFIG, State(), Sample(0, 3.0, 0.0), 60.0, 0.0)[1]
+    assert state.run is not None
+    state = replace(state, arrival=0.25, run=replace(state.run, ignored=times * IGNORED_TIME))
+    after = end(state, 0.25, reference_timeout=0.2)
+    assert after.demand is None and ("motor/enable" in after.dropped) is not goes_on
+    assert (controller.refer(after, 60.0, 0.25).demand is not None) is goes_on
