@@ -36,6 +36,13 @@ def test_a_repeated_sample_beside_another_voltage_is_told(asked: float) -> None:
     assert reason.startswith("The plant has repeated one sample on motor/speed for 0.17 s, with 3 V although")
 
 
+def test_all_the_voltage_that_is_repeated_beside_less_is_told() -> None:
+    """It is what a plant's own limit may leave of more, and of nothing else."""
+    for voltage in (12.0, -12.0):
+        for asked in (6.0, 0.0, -6.0):
+            assert told(asked, replace(SAME, voltage=voltage))[0] < 0.18
+
+
 @pytest.mark.parametrize(("period", "least", "most"), [(0.001, 0.15, 0.16), (0.1, 0.35, 0.55)])
 def test_a_slow_plant_has_three_samples_more(period: float, least: float, most: float) -> None:
     assert least < told(6.0, period=period)[0] < most

@@ -31,6 +31,14 @@ def test_edges_that_end_within_a_slot_are_a_line_that_is_lost_whatever_the_volta
     )  # how heavy it is, nobody knows
 
 
+def test_edges_that_end_within_a_slot_are_told_under_all_the_voltage_too_and_never_where_stall_time_is_0() -> None:
+    """Sooner than a stall is."""
+    rows = [FAST] * 200 + [(0.0, 12.0, 0.0)] * 200
+    reason, when = feed(rows, SLOW, 20.0)
+    assert "they came at 19.9 rad/s" in reason and 1.09 < when < 1.12
+    assert feed(rows[:300], replace(SLOW, stall_time=0.0), 20.0)[0] == ""
+
+
 @pytest.mark.parametrize(("slots", "stops"), [(4.0, False), (6.0, True)])
 def test_a_motor_that_needs_less_than_a_few_slots_to_stop_may_have_stopped(slots: float, stops: bool) -> None:
     """By a load, back-EMF and a voltage against it: w² τ/(4 w_top)."""
