@@ -130,6 +130,8 @@ class Senders:
         firsts = self.firsts
         if found is not None:
             sender = found.hear(_without_stop(message, doubted), since)
+            if doubted and not message.stops:  # it may be the barred stream's from here on
+                sender = replace(sender, obeyed=-1, forgiven=-1)
         elif message.number == 1:
             firsts = firsts.hear(message.now, message.stops)
             sender = _start(message, firsts.begins or self.forgiven == self.ended, self.longest)

@@ -304,3 +304,21 @@ def test_who_has_sent_one_alone_is_no_stream_that_takes_anothers_0() -> None:
     assert hall.says(1, 0.0, 0.0) and hall.says(1, 0.1, 60.0)
     hall.end()
     assert hall.says(2, 0.6, 0.0) and hall.says(3, 0.61, 60.0)
+
+
+@pytest.mark.parametrize("period", [0.005, 0.02, 0.1])
+@pytest.mark.parametrize("offset", [0.02, 0.16, 0.48, 0.9])
+def test_of_two_streams_that_are_one_number_apart_the_0_of_one_does_not_let_the_other_go_on(
+    period: float, offset: float
+) -> None:
+    """Each message may be either's next one: the motor ran on at what one went on sending, once the other had ended."""
+    hall = Hall()
+    for k in range(60):
+        hall.says(k + 1, k * period)
+        hall.says(k + 2, (k + offset) * period)
+    hall.end()
+    for k in range(60, 120):
+        assert not hall.says(k + 1, k * period)
+        assert not hall.says(k + 2, (k + offset) * period)
+    assert hall.says(121, 120 * period, 0.0)  # the last that it says
+    assert not any(hall.says(k + 2, (k + offset) * period) for k in range(120, 400))
