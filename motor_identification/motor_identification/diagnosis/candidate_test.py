@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import log
+from math import comb, log
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model, find_lasting_interval
@@ -190,6 +190,11 @@ def _is_longer_than_rows_are_late(model: Model, lag: str) -> bool:
 def likelihood_threshold() -> float:
     """Compute what a log likelihood ratio has to exceed, by Markov's inequality for all effects together."""
     return log(len(EFFECT_BY_NAME) / thresholds.FALSE_ALARM_RATE)
+
+
+def pair_threshold() -> float:
+    """Compute what the log likelihood ratio of two effects together has to exceed: the same, for all pairs together."""
+    return log(comb(len(EFFECT_BY_NAME), 2) / thresholds.FALSE_ALARM_RATE)
 
 
 def is_same_motion(one: Model, other: Model) -> bool:

@@ -14,6 +14,7 @@ from motor_identification.diagnosis.candidate_test import (
     CandidateTest,
     fits_torque,
     likelihood_threshold,
+    pair_threshold,
     predicts_far_worse,
 )
 from motor_identification.diagnosis.effect_test import choose_finding
@@ -74,6 +75,7 @@ def test_lasting_parts(times: float, length: float) -> None:
 @SIDES
 def test_false_alarm_rate(times: float, passes: bool) -> None:
     assert likelihood_threshold() == pytest.approx(log(len(EFFECTS) / thresholds.FALSE_ALARM_RATE))
+    assert pair_threshold() == pytest.approx(log(0.5 * len(EFFECTS) * (len(EFFECTS) - 1) / thresholds.FALSE_ALARM_RATE))
     test = stub_test("coulomb_friction", stub_model(5.0), 1.0, times * likelihood_threshold())
     assert (choose_finding([test]) is test) is passes
 

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import refine_beside_torque, refit_without, validate_model
-from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
+from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold, pair_threshold
 from motor_identification.diagnosis.effect_test import (
     EFFECT_ORDER,
     choose_finding,
@@ -23,17 +23,17 @@ from motor_identification.diagnosis.selection.selection import Selection, Select
 def promises_anything(selection: Selection) -> bool:
     """Decide whether one effect more, or two, are promised to be likely."""
     singles, pairs = selection.promises
-    return bool(list_likely(singles, 1) or list_likely(pairs, 2))
+    return bool(list_likely(singles, likelihood_threshold()) or list_likely(pairs, pair_threshold()))
 
 
 def list_promised(selection: Selection) -> list[str]:
     """List the effects that are promised to be likely alone."""
-    return [one.effects[0] for one in list_likely(selection.promises[0], 1)]
+    return [one.effects[0] for one in list_likely(selection.promises[0], likelihood_threshold())]
 
 
-def list_likely(promises: Iterable[Promise], count: int) -> list[Promise]:
-    """List the promises of so many effects each that would be likely."""
-    return [one for one in promises if one.gain > count * likelihood_threshold()]
+def list_likely(promises: Iterable[Promise], least: float) -> list[Promise]:
+    """List the promises that gain more than so much."""
+    return [one for one in promises if one.gain > least]
 
 
 def list_joint(singles: tuple[Promise, ...], pairs: tuple[Promise, ...]) -> list[Promise]:
@@ -41,7 +41,7 @@ def list_joint(singles: tuple[Promise, ...], pairs: tuple[Promise, ...]) -> list
     alone = {one.effects[0]: one.gain for one in singles}
     least = likelihood_threshold()
     joint = [one for one in pairs if one.gain - max(alone.get(name, 0.0) for name in one.effects) > least]
-    return list_likely(joint, 2)
+    return list_likely(joint, pair_threshold())
 
 
 def find_promised_pair(selection: Selection) -> list[SelectionStep]:
@@ -77,7 +77,7 @@ def _try_pair(selection: Selection, promise: Promise) -> list[SelectionStep]:
     assert current.learned is not None
     larger = validate_model(hold_out, fit_promised(current.estimate, promise, current.learned), current)
     both = refine_beside_torque(larger, hold_out)
-    if both.likelihood - current.likelihood < 2.0 * likelihood_threshold():
+    if both.likelihood - current.likelihood < pair_threshold():
         return []
     tests = [CandidateTest(effect, refit_without(both, effect, hold_out), both) for effect in promise.effects]
     if any(choose_finding([test]) is None for test in tests):

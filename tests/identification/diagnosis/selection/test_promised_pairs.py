@@ -3,7 +3,7 @@
 import pytest
 from one_way import HIDING, noisy_levels
 
-from motor_identification.diagnosis.candidate_test import likelihood_threshold
+from motor_identification.diagnosis.candidate_test import likelihood_threshold, pair_threshold
 from motor_identification.diagnosis.fits.score_scan import Promise
 from motor_identification.diagnosis.selection.promised_pairs import (
     find_promised_pair,
@@ -52,11 +52,16 @@ def test_what_is_missing_is_promised_at_the_floor_too(hidden: dict[str, float], 
     assert set(list_promised(begun(**hidden))) == alone  # a motor that turns one way does not tell these apart
 
 
-@pytest.mark.parametrize(("count", "effects"), [(1, ("load_bias",)), (2, ("load_bias", "supply_sag"))])
-def test_each_effect_has_to_be_likely(count: int, effects: tuple[str, ...]) -> None:
-    least = count * likelihood_threshold()
-    above = promise(ABOVE * least, *effects)
-    assert list_likely((above, promise(BELOW * least, *effects)), count) == [above]
+@pytest.mark.parametrize("least", [likelihood_threshold(), pair_threshold()])
+def test_what_is_promised_has_to_be_likely(least: float) -> None:
+    above = promise(ABOVE * least, "load_bias")
+    assert list_likely((above, promise(BELOW * least, "load_bias")), least) == [above]
+
+
+def test_two_effects_have_to_be_likely_among_all_pairs() -> None:
+    assert likelihood_threshold() < pair_threshold() < 2.0 * likelihood_threshold()
+    promises = [promise(times * pair_threshold(), "load_bias", "supply_sag") for times in (ABOVE, BELOW)]
+    assert list_joint((), (promises[0], promises[1])) == promises[:1]
 
 
 @pytest.mark.parametrize(("times", "joint"), [(ABOVE, True), (BELOW, False)])
