@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from motor_identification.logs.columns.behaviour.edge_times import EDGE_TIMES, find_edge_times
 from motor_identification.logs.columns.behaviour.following import follows
 from motor_identification.logs.columns.behaviour.motors import named_motors, numbered_motors, share_one_drive
 from motor_identification.logs.columns.behaviour.parameters import leave_out_parameters
@@ -22,10 +23,15 @@ from motor_identification.logs.columns.clock import find_clock, read_clock, runs
 from motor_identification.logs.columns.drive import drives, leave_out_idle_efforts
 from motor_identification.logs.columns.heading import Heading, read_heading, words_besides
 from motor_identification.logs.columns.motion.speed_beside import find_driven_speed, is_summed_up
-from motor_identification.logs.columns.names.quantity import may_number_rows
 from motor_identification.logs.columns.roles.candidates import is_numeric
 from motor_identification.logs.columns.roles.drive_column import find_drive_column, find_supply_column
 from motor_identification.logs.columns.roles.motion_column import find_motion_column
+from motor_identification.logs.columns.roles.row_numbers import (
+    FEWEST_ROWS,
+    SAME_CLOCK,
+    leave_out_numbers,
+    tell_number,
+)
 from motor_identification.logs.columns.roles.structs import keep_struct, times_of_struct
 from motor_identification.logs.columns.roles.without_names import pair_by_behaviour, pair_channels
 from motor_identification.logs.columns.said import Pair, Said
@@ -35,10 +41,7 @@ from motor_identification.logs.csv.table import Table
 
 Floats = NDArray[np.float64]
 
-SAME_CLOCK = 0.9999  # correlation of two columns of times
 SAME_COLUMN = 0.99  # of the rows in motion, in which two columns of one signal are equal
-FEWEST_ROWS = 10  # that numbers of rows are told by
-MOSTLY_ON = 0.9  # of the rows, by which such a number goes on by 1: a few rows are lost
 UNEVEN = 0.2  # of their mean: steps of a column that may be a motor's way
 
 
@@ -60,14 +63,15 @@ def find_roles(table: Table, said: Said) -> Roles:
     Raises:
         RecordingError: a column is not there, or which one is meant cannot be told: the sentence asks for it.
     """
-    headings = [_tell_number(table, read_heading(name)) for name in table.names if is_numeric(table, name)]
-    time = said.time or (None if said.steady else _time_of(table, headings, said) or _clock_left(table, headings, said))
+    headings = [tell_number(table, read_heading(name)) for name in table.names if is_numeric(table, name)]
+    edges = None if said.time or said.steady else find_edge_times(table, headings, said)
+    time = said.time or (edges[0] if edges else None)
+    if not time and not said.steady:
+        time = _time_of(table, headings, said) or _clock_left(table, headings, said)
     if said.time:
         table.column(said.time)
     others = [heading for heading in headings if heading.name not in (time, said.supply)]
-    free = ends_of_a_loop(
-        [one for one in others if one.quantity is not None or not _numbers_rows(table, one.name, time)]
-    )
+    free = ends_of_a_loop(leave_out_numbers(table, others, time, timed=bool(said.time or edges)))
     free = references_beside(free)
     free = free if said.motion else leave_out_parameters(table, free)
     free = commands_beside_control(table, leave_out_idle_efforts(table, free))
@@ -87,16 +91,8 @@ def find_roles(table: Table, said: Said) -> Roles:
         supply,
         currents[0] if len(currents) == 1 and len(pairs) == 1 else None,
         (*unlike, *undriven),
-        findings,
+        (*([EDGE_TIMES.format(*edges)] if edges else []), *findings),
     )
-
-
-def _tell_number(table: Table, heading: Heading) -> Heading:
-    """A heading, of OTHER where its column numbers the rows by its name and goes on by 1: that is no clock's rate."""
-    if heading.quantity is not None or not may_number_rows(heading.words):
-        return heading
-    steps = np.diff(table.numbers(heading.name))
-    return replace(heading, quantity=Quantity.OTHER) if np.mean(steps == 1.0) > MOSTLY_ON else heading
 
 
 def _time_of(table: Table, headings: Sequence[Heading], said: Said) -> str | None:
@@ -146,21 +142,6 @@ def _is_way(table: Table, name: str, columns: Mapping[str, Floats]) -> bool:
     if even:
         return False
     return any(find_position(table, (name, other), None) == name for other in columns if other != name)
-
-
-def _numbers_rows(table: Table, name: str, time: str | None) -> bool:
-    """Whether a column is another clock's times of the same rows, as where each channel has an X of its own.
-
-    Or their numbers, as programs write before each row.
-    """
-    if time is None:
-        return False
-    values, times = table.numbers(name), read_clock(table, time)
-    if len(table) > FEWEST_ROWS and np.array_equal(values, values[0] + np.arange(len(values))):
-        return True
-    if len(times) != len(values) or not runs_forward(values) or np.ptp(times) <= 0.0:
-        return False
-    return correlate(values, times) > SAME_CLOCK and bool(abs(np.ptp(values) / np.ptp(times) - 1.0) < 0.01)
 
 
 def _driven_sides(headings: Sequence[Heading]) -> tuple[list[Heading], tuple[str, ...]]:

@@ -8,6 +8,7 @@ from motor_identification.logs.columns.drive import leave_out_idle_efforts
 from motor_identification.logs.columns.heading import read_heading
 from motor_identification.logs.columns.roles.roles import find_roles
 from motor_identification.logs.columns.said import Pair, Said
+from motor_identification.logs.rows.drive.constant_voltage import CONSTANT
 from motor_model.errors import RecordingError
 
 
@@ -208,3 +209,13 @@ def test_numbers_of_samples_are_no_times() -> None:
         assert find_roles(columns(**(sheet | {name: 10.0 * number})), Said()).time == name
     lost = np.delete(np.arange(210.0), np.arange(10, 210, 20))  # a few rows were not logged
     assert find_roles(columns(sample=lost, PWM=DRIVE, rpm=MOVED), Said()).time is None
+
+
+@pytest.mark.parametrize("time", [None, "a"])
+def test_times_of_edges_beside_their_count(time: str | None) -> None:
+    """As of a robot whose board logs when each slot came, under one voltage."""
+    count = np.arange(200.0)
+    of_edges = columns(a=np.rint(40.0 * np.sqrt(count) + 10.0 * count), b=count, **{CONSTANT: np.full(200, 6.0)})
+    roles = find_roles(of_edges, Said(time=time))
+    assert (roles.time, roles.pairs) == ("a", (Pair("", CONSTANT, "b"),))
+    assert [line.startswith("a says when each count in b came") for line in roles.findings] == ([] if time else [True])
