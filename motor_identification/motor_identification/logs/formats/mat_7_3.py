@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_identification.logs.formats.hdf5.reader import Array, Hdf5, read_hdf5
-from motor_identification.logs.formats.mat_elements import MOST_NUMBERS, TooLargeError, Value, is_vector
+from motor_identification.logs.formats.mat_elements import MOST_NUMBERS, Cells, TooLargeError, Value, is_vector
 
 MARK = b"MATLAB 7.3"
 _NUMERIC = {
@@ -30,8 +30,9 @@ def read_variables_7_3(data: bytes) -> dict[str, Value]:
     file = read_hdf5(data)
     found: dict[str, Value] = {"": {}} if any(map(_is_object, _list_own(file).values())) else {}
     numbers = 0
-    for path, value in (*_list_matrices(file), *_list_members(file)):
-        numbers += value.size if isinstance(value, np.ndarray) else 0
+    for path, value in (*_list_matrices(file), *_list_members(file), *_list_cells(file)):
+        values = value.values() if isinstance(value, Cells) else [value]
+        numbers += sum(one.size for one in values if isinstance(one, np.ndarray))
         if numbers > MOST_NUMBERS:
             raise TooLargeError(f"more than {MOST_NUMBERS // 10**6} million numbers")
         _put(found, path, value)
@@ -67,13 +68,29 @@ def _list_members(file: Hdf5) -> Iterator[tuple[tuple[str, ...], Value]]:
         *place, field = path.split("/")
         if not array.references or _CLASS in array.attributes or not place:
             continue
-        for number, address in enumerate(array.values.ravel()[:MOST_MEMBERS], 1):
-            target = file.arrays.get(file.paths.get(int(address), ""))
-            value = None if target is None else _numbers(target)
-            if value is not None:
-                yield (*place, str(number), field), value
-            elif _text(target):
-                yield (*place, str(number), field), _text(target)
+        for number, value in _list_references(file, array):
+            yield (*place, number, field), value
+
+
+def _list_cells(file: Hdf5) -> Iterator[tuple[tuple[str, ...], Value]]:
+    """List the arrays of several cells that hold matrices of numbers."""
+    for path, array in _list_own(file).items():
+        if not array.references or array.attributes.get(_CLASS) != "cell":
+            continue
+        cells = Cells(_list_references(file, array))
+        if any(isinstance(value, np.ndarray) for value in cells.values()):
+            yield tuple(path.split("/")), cells["1"] if array.values.size == 1 else cells
+
+
+def _list_references(file: Hdf5, array: Array) -> Iterator[tuple[str, Value]]:
+    """List the matrices and texts that an array has references to, by 1, 2, …."""
+    for number, address in enumerate(array.values.ravel()[:MOST_MEMBERS], 1):
+        target = file.arrays.get(file.paths.get(int(address), ""))
+        value = None if target is None else _numbers(target)
+        if value is not None:
+            yield str(number), value
+        elif _text(target):
+            yield str(number), _text(target)
 
 
 def _put(found: dict[str, Value], path: tuple[str, ...], value: Value) -> None:

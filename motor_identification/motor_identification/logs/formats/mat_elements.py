@@ -2,7 +2,7 @@
 
 SciPy's reader, compiled, is ended by the operating system where a damaged file names a type of numbers that there is
 not: every type, size and dimension is checked here before anything is read by it. What holds no real numbers (long
-texts, cells of several but of texts, sparse matrices, objects of newer classes) is left out.
+texts, sparse matrices, objects of newer classes) is left out.
 """
 
 from __future__ import annotations
@@ -32,6 +32,10 @@ MOST_BYTES = 2**29  # unpacked, of all
 MOST_NUMBERS = 64_000_000  # of all, since each becomes a float64, though it may be packed as a byte: 512 MB
 MOST_ELEMENTS = 20_000  # variables and fields of all
 Value: TypeAlias = "NDArray[Any] | str | dict[str, Value]"
+
+
+class Cells(dict[str, Value]):
+    """Several values in an array of cells, by 1, 2, …."""
 
 
 class BrokenFileError(MotorError):
@@ -74,7 +78,7 @@ class Tally:
 def read_variables(data: bytes) -> dict[str, Value]:
     """Read matrices of shape (rows, columns) by name, structs as dictionaries of such, several of them by 1, 2, ….
 
-    An object of an older class, such as iddata, is a dictionary of its fields under `@iddata`.
+    So are arrays of cells. An object of an older class, such as iddata, is a dictionary of its fields under `@iddata`.
 
     Raises:
         BrokenFileError: a tag, a size, a type or a dimension cannot be.
@@ -170,12 +174,18 @@ def read_matrix(data: memoryview, tally: Tally, depth: int) -> tuple[str, Value 
     if kind == TEXT and len(shape) == 2 and shape[0] == 1 and 0 < shape[1] <= LONGEST_TEXT:
         return name, _text(next(parts, None))
     if kind == CELL and 1 <= prod(shape) <= MOST_ALIKE and depth < DEEPEST:
-        inner = [read_matrix(part.data, tally, depth + 1)[1] for part in parts if part.type == MATRIX]
-        if len(inner) == 1:
-            return name, inner[0]
-        texts = [one for one in inner if isinstance(one, str)]
-        return name, "\n".join(texts) if texts and len(texts) == len(inner) else None
+        return name, _join_cells([read_matrix(part.data, tally, depth + 1)[1] for part in parts if part.type == MATRIX])
     return name, None
+
+
+def _join_cells(values: list[Value | None]) -> Value | None:
+    """The only value of an array of cells, the lines that its texts are, or those with real numbers by 1, 2, …."""
+    if len(values) == 1:
+        return values[0]
+    texts = [one for one in values if isinstance(one, str)]
+    if texts and len(texts) == len(values):
+        return "\n".join(texts)
+    return Cells({str(k): one for k, one in enumerate(values, start=1) if one is not None}) or None
 
 
 def read_kind(matrix: memoryview, tally: Tally) -> int:

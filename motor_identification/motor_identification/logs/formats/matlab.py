@@ -1,7 +1,7 @@
 """MATLAB files (version 4 to 7.3), Octave's and NumPy's as a table: vectors of one length, columns of matrices."""
 
 import re
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +11,7 @@ from motor_identification.logs.columns.clock import runs_forward
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.formats.hdf5.reader import SIGNATURE
 from motor_identification.logs.formats.mat_7_3 import MARK, read_variables_7_3
-from motor_identification.logs.formats.mat_elements import BrokenFileError, TooLargeError, Value, read_variables
+from motor_identification.logs.formats.mat_elements import BrokenFileError, Cells, TooLargeError, Value, read_variables
 from motor_identification.logs.formats.mat_objects import read_objects, spread_iddata
 from motor_identification.logs.formats.mat_version_4 import is_version_4, read_matrices
 from motor_identification.logs.formats.numpy_arrays import MARK as NUMPY
@@ -36,7 +36,6 @@ def read_matlab(path: Path, wanted: Collection[str] = (), fewest: int = 2) -> Ta
     Raises:
         RecordingError: the file is damaged, too large, or has no two vectors of one length.
     """
-    vectors: dict[str, Any] = {}
     read: Callable[[bytes], dict[str, Value]] = read_variables
     try:
         data = path.read_bytes()
@@ -48,9 +47,7 @@ def read_matlab(path: Path, wanted: Collection[str] = (), fewest: int = 2) -> Ta
             objects = not signals
             variables.update({name: one for name, one in signals.items() if name not in variables})
         variables, left_out = spread_iddata(variables)
-        for name, value in variables.items():
-            if name:
-                _collect(name, value, vectors)
+        vectors = _list_vectors(variables, wanted, fewest)
     except TooLargeError as error:
         raise RecordingError(f"{path} is too large ({error}): cut it into parts.") from error
     except MemoryError as error:
@@ -60,11 +57,10 @@ def read_matlab(path: Path, wanted: Collection[str] = (), fewest: int = 2) -> Ta
         raise RecordingError(f"{path} is a damaged {kind} file ({error}): {cure}.") from error
     if objects and len(vectors) < fewest:
         raise RecordingError(f"{path} holds {OBJECTS}, which only MATLAB reads: {SAVE_THEM}.")
-    signals = {name: vector for name, vector in vectors.items() if len(vector) >= 2}
+    signals = _list_signals(vectors)
     if not signals:
         raise RecordingError(f"{path} has no vectors of numbers: save time, voltage and motion as vectors.")
-    lengths = {len(vector) for vector in signals.values()}
-    groups = {n: _share_clock({name: one for name, one in signals.items() if len(one) == n}) for n in lengths}
+    groups = _group_by_length(signals)
     fitting = choose_columns(groups, wanted)
     if len(fitting) < fewest:
         raise RecordingError(
@@ -80,6 +76,28 @@ def read_matlab(path: Path, wanted: Collection[str] = (), fewest: int = 2) -> Ta
     notes += left_out
     notes += [f"Not read: {OBJECTS}; {SAVE_THEM}, if the motion is in them."] if objects else []
     return Table(path, np.arange(1, length + 1), fitting, notes=tuple(notes))
+
+
+def _list_vectors(variables: Mapping[str, Value], wanted: Collection[str], fewest: int) -> dict[str, Any]:
+    """The vectors in variables; those in arrays of cells only where one of them is wanted, or too few are elsewhere."""
+    plain: dict[str, Any] = {}
+    every: dict[str, Any] = {}
+    for name, value in variables.items():
+        if name:
+            _collect(name, value, plain, in_cells=False)
+            _collect(name, value, every, in_cells=True)
+    groups = _group_by_length(_list_signals(plain))
+    enough = bool(groups) and len(choose_columns(groups, wanted)) >= fewest
+    return plain if enough and every.keys() & {*wanted} <= plain.keys() else every
+
+
+def _list_signals(vectors: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: vector for name, vector in vectors.items() if len(vector) >= 2}
+
+
+def _group_by_length(signals: Mapping[str, Any]) -> dict[int, dict[str, Any]]:
+    lengths = {len(vector) for vector in signals.values()}
+    return {n: _share_clock({name: one for name, one in signals.items() if len(one) == n}) for n in lengths}
 
 
 def _read_signals(data: bytes) -> dict[str, Value]:
@@ -138,24 +156,26 @@ def _split_place(text: str) -> list[str]:
     return [part.replace("\0", "/") for part in text.replace("//", "\0").split("/")]
 
 
-def _collect(name: str, value: Value, vectors: dict[str, Any]) -> None:
-    """Put the vectors in a value into `vectors`."""
-    if isinstance(value, str):
+def _collect(name: str, value: Value, vectors: dict[str, Any], in_cells: bool) -> None:
+    """Put the vectors in a value into `vectors`, those in arrays of cells only if they are asked for."""
+    if isinstance(value, str) or (isinstance(value, Cells) and not in_cells):
         return
     if isinstance(value, dict):
         label = value.get("label")
         if isinstance(label, str) and label.strip() and isinstance(one := value.get("values"), np.ndarray):
-            _collect(label.strip() if label.strip() not in vectors else f"{name} {label.strip()}", one, vectors)
+            _collect(
+                label.strip() if label.strip() not in vectors else f"{name} {label.strip()}", one, vectors, in_cells
+            )
             return
         if (place := _find_place(value)) and isinstance(one := value.get("Data"), np.ndarray):
             name = place if place not in vectors else f"{name} {place}"
             if not any(
                 isinstance(other, np.ndarray) and other.size > 1 for other in value.values() if other is not one
             ):
-                _collect(name, one, vectors)
+                _collect(name, one, vectors, in_cells)
                 return
         for inner, one in value.items():
-            _collect(f"{name}.{inner}", one, vectors)
+            _collect(f"{name}.{inner}", one, vectors, in_cells)
     elif 1 in value.shape:
         vectors[name] = value.reshape(-1).astype(np.float64)
     else:

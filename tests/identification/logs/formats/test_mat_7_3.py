@@ -140,3 +140,21 @@ def test_damage_is_a_sentence(tmp_path: Path) -> None:
     path.write_bytes(hdf5({"t": matrix(TIME[:, None]), "u": matrix(VOLTS)})[:700])
     with pytest.raises(RecordingError, match="is a damaged MATLAB file .*: save it again with -v7"):
         read_matlab(path)
+
+
+def test_matrices_in_cells_are_numbered(tmp_path: Path) -> None:
+    refers = ("#refs#/a", "#refs#/b", "#refs#/c")
+    tree: Tree = {
+        "log": {
+            "t": matrix(TIME[:, None]),
+            "out": Stored(np.zeros((3, 1), np.uint64), {"MATLAB_class": "cell"}, refers=refers),
+        },
+        "one": Stored(np.zeros((1, 1), np.uint64), {"MATLAB_class": "cell"}, refers=refers[:1]),
+        "texts": Stored(np.zeros((1, 1), np.uint64), {"MATLAB_class": "cell"}, refers=refers[2:]),
+        "#refs#": {"a": matrix(VOLTS[:, None]), "b": matrix(SPEED[:, None]), "c": text("bench")},
+    }
+    variables = read_variables_7_3(hdf5(tree))
+    assert sorted(variables) == ["log", "one"] and np.array_equal(np.ravel(np.asarray(variables["one"])), VOLTS)
+    table = read_matlab(write(tree, tmp_path / "log.mat"), wanted=["log.out.2"])
+    assert sorted(table.names) == ["log.out.1", "log.out.2", "log.t", "one"]
+    assert table.numbers("log.out.2").tolist() == SPEED.tolist()

@@ -188,3 +188,28 @@ def test_a_played_signal_is_put_beside_what_was_logged_meanwhile(tmp_path: Path)
     assert table.numbers("time") == pytest.approx(TIME)
     (motor,) = import_log(tmp_path / "log.mat", Said(unit="rad/s")).motors
     assert sum(len(run.samples) for run in motor.log.runs) == 50  # the last voltage holds
+
+
+def cells(*values: object) -> np.ndarray:  # type: ignore[type-arg]
+    """An array of cells, as a column."""
+    array = np.empty((len(values), 1), dtype=object)
+    array[:, 0] = values
+    return array
+
+
+def test_vectors_in_cells_are_read_where_too_few_are_elsewhere(tmp_path: Path) -> None:
+    """As a serial logger keeps its channels, one of them a matrix, beside their times."""
+    both = np.vstack([TIME * 7, TIME * 9])
+    channels = cells((TIME * 3)[None], (TIME * 5)[None], both, "bench", np.zeros((0, 0)))
+    savemat(tmp_path / "log.mat", {"data": {"time": TIME[None], "out": channels}})
+    table = read_matlab(tmp_path / "log.mat")
+    assert table.names == ["data.time", "data.out.1", "data.out.2", "data.out.3 1", "data.out.3 2"]
+    assert np.array_equal(table.numbers("data.out.2"), TIME * 5)
+    assert np.array_equal(table.numbers("data.out.3 2"), TIME * 9)
+
+
+def test_vectors_in_cells_are_left_where_there_are_others(tmp_path: Path) -> None:
+    longer = cells(*(np.arange(3.0 * len(TIME)) * k for k in range(1, 5)))
+    savemat(tmp_path / "log.mat", {"t": TIME, "u": TIME * 3, "speed": TIME * 5, "training": longer})
+    assert read_matlab(tmp_path / "log.mat").names == ["t", "u", "speed"]
+    assert len(read_matlab(tmp_path / "log.mat", wanted=["training.2"])) == 3 * len(TIME)
