@@ -72,6 +72,24 @@ def test_a_servo_that_runs_out_at_little_voltage_has_a_supply(kind: Kind, left: 
     assert len(drop_unpowered_end(signals, replace(SPEED, kind=kind))[0]) in (found, found + 1)
 
 
+@pytest.mark.parametrize("kind", [Kind.SPEED, Kind.COUNT])
+@pytest.mark.parametrize(
+    ("ends_at", "tau", "found"),
+    [(0.0, 60.0, 600), (0.2, 12.0, 480), (0.0, np.inf, 600)],  # it coasts; it comes to a lower speed; friction alone
+)
+def test_a_motor_that_coasts_down_does_not_run_at_little_voltage(
+    kind: Kind, ends_at: float, tau: float, found: int
+) -> None:
+    """Behind a bridge that coasts; its drive, a loop's, is 0 in a row now and then. Then its friction holds it."""
+    rows = np.arange(80.0)
+    left = ends_at + (1.0 - ends_at) * np.exp(-rows / tau) if np.isfinite(tau) else 1.0 - rows / 80.0
+    volts = np.concatenate((np.full(400, 5.0), np.where(rows % 15.0 == 14.0, 0.0, 0.3), np.resize([0.9, 1.2], 120)))
+    speed = np.concatenate((np.full(400, 50.0), 50.0 * left, np.zeros(120)))
+    signals = logged(volts, speed if kind is Kind.SPEED else np.floor(np.cumsum(speed)))
+    kept, said = drop_unpowered_end(signals, replace(SPEED, kind=kind))
+    assert len(kept) in (found, found + 1) and bool(said) == (found < 600)
+
+
 def stopped(level: float, rest: int, kind: Kind) -> Signals:
     """A staircase to a level, at which the motor comes to a stop of its own over five rows, and rests."""
     volts = np.repeat([1.0, 2.0, 3.0, level], 40)
