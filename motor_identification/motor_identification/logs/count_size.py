@@ -224,3 +224,20 @@ def doubt_counts(counts: float, period: float, step: float, digit: float) -> str
         f"{share}, were rounded, or are those of a gear's output (--gear-ratio). Log the counts, or say how long a "
         "speed was counted (--speed-window)."
     )
+
+
+def doubt_window(counts: float, window: float, held: int) -> str:
+    """Say what encoder it is, of so many counts a turn by windows [s] of a row, where most speeds stay for more rows.
+
+    Args:
+        counts: of a turn, by the step within the window.
+        window: [s] of one row.
+        held: rows for which most speeds stay; 0 where none do.
+    """
+    if not held:
+        return ""
+    return (
+        f" But most values stay for {held} rows: if a new one came every {1e3 * held * window:.4g} ms, it has "
+        f"{counts / held:.5g} (--speed-window {held * window:.4g}), and rows that have a new one each came later than "
+        "they say."
+    )

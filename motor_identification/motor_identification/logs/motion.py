@@ -5,7 +5,7 @@ from math import inf, pi, tau
 
 import numpy as np
 
-from motor_identification.logs.count_size import AGREE_SPEED, agree_on_edges, count_size, doubt_counts
+from motor_identification.logs.count_size import AGREE_SPEED, agree_on_edges, count_size, doubt_counts, doubt_window
 from motor_identification.logs.form import LENGTHS, CsvForm, Kind
 from motor_identification.logs.position_lattice import LEAST_LEVELS, ON_GRID, printed_digit
 from motor_identification.logs.rows.bursts import cut_stalls
@@ -24,7 +24,7 @@ from motor_identification.logs.rows.speed_sign import give_signs
 from motor_identification.logs.rows.swapped_sign import turn_round
 from motor_identification.logs.rows.wraps import unwrap
 from motor_identification.logs.signals import Floats, Integers, Signals
-from motor_identification.sensor.held_samples import find_frames
+from motor_identification.sensor.held_samples import count_held_rows, find_frames
 from motor_identification.sensor.pulses.timer_ticks import are_over_slots
 from motor_identification.sensor.running_mean import find_running_mean, size_of_count, take_single_rows
 from motor_identification.sensor.speed_sensor import are_smoothed, find_noise
@@ -195,6 +195,7 @@ def _about_count(form: CsvForm, signals: Signals, edges: int, window: float) -> 
             f"Values are multiples of {step / unit:.4g} {form.unit}{new}: one count within {within} if the encoder has "
             f"{counts:.5g} per revolution (assumed; otherwise: --edges-per-revolution)."
             f"{doubt_counts(counts, frame or window, step / unit, printed_digit(signals.motion))}"
+            f"{'' if frame or form.speed_window else doubt_window(counts, window, _count_held_rows(signals))}"
         )
     coarse = find_lattice(signals.motion)
     said = "Speeds show no counts"
@@ -204,6 +205,11 @@ def _about_count(form: CsvForm, signals: Signals, edges: int, window: float) -> 
         f"{said}: noise of {noise / unit:.2g} {form.unit}, as between neighbours, is assumed "
         "(otherwise: --edges-per-revolution)."
     )
+
+
+def _count_held_rows(signals: Signals) -> int:
+    """Count the rows for which most speeds of a run are held; 0 where none are."""
+    return max(map(count_held_rows, (signals.motion[run] for run in signals.runs.values())), default=0)
 
 
 def _measure_frame(signals: Signals) -> float:

@@ -21,6 +21,7 @@ LEAST_ROWS = 1.5  # in a frame: fewer are rows that jitter
 OFF_GRID = 0.65  # rows beside an even grid that a change may be: half a row either way, and jitter
 LATE = 0.03  # share of changes that may be further off
 CHANCE = 1e-4  # that changes at random rows would be so near a grid
+MOST, SURE = 0.5, 4.0  # of the rows in motion that hold values, and standard errors of how many stay for twice as long
 
 
 @dataclass(frozen=True)
@@ -92,3 +93,20 @@ def _make_frames(time: Floats, period: float, begin: float, row: float) -> Frame
     # a row on average, but not for a time before that of a log which reads its sensor itself.
     shown = np.minimum(np.searchsorted(time, made + 0.5 * row), len(time) - 1)
     return Frames(shown.astype(np.int64), made, period)
+
+
+def count_held_rows(values: Floats) -> int:
+    """Count the rows for which most of the values (K,) are held, where a buffer gave others too soon; 0 where none are.
+
+    Two values in a row are the same by chance: then they stay for twice as long, and more seldom for any time between.
+    Where each row has a value of its own, or one stays for as long as it likes, longer times are ever more seldom.
+    """
+    gaps = np.diff(np.flatnonzero(np.diff(values)))
+    times: Integers = np.bincount(gaps, minlength=3)
+    held = 2 + int(np.argmax(times[2:]))
+    if len(times) <= 2 * held:
+        return 0
+    between, twice = float(np.max(times[held + 1 : 2 * held])), float(times[2 * held])
+    short = gaps[gaps <= 2 * held]
+    mostly = np.sum(short[short % held == 0]) > MOST * np.sum(short)
+    return held if mostly and times[held] > twice > between + SURE * np.sqrt(between + twice) else 0

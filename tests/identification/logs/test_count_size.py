@@ -7,7 +7,7 @@ from math import radians
 import numpy as np
 import pytest
 
-from motor_identification.logs.count_size import FEWEST_COUNTS, FINE, count_size, doubt_counts
+from motor_identification.logs.count_size import FEWEST_COUNTS, FINE, count_size, doubt_counts, doubt_window
 from motor_identification.logs.form import CsvForm, Kind
 from motor_model.errors import RecordingError
 from motor_model.gearing.gear import edge_angle, exact_gear
@@ -153,3 +153,9 @@ def test_counts_that_are_no_whole_ones_are_doubted(
 )
 def test_counts_within_what_decimals_and_clocks_leave_are_not(counts: float, period: float, doubted: bool) -> None:
     assert bool(doubt_counts(counts, period, 0.7272, 1e-4)) is doubted
+
+
+def test_a_window_is_doubted_where_speeds_stay_for_more_rows() -> None:
+    said = doubt_window(16384.02, 0.0005, 2)
+    assert said.startswith(" But most values stay for 2 rows: if a new one came every 1 ms, it has 8192 (--speed-w")
+    assert "(--speed-window 0.001)" in said and doubt_window(16384.0, 0.0005, 0) == ""

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from motor_identification.sensor.held_samples import Frames, find_frames
+from motor_identification.sensor.held_samples import Frames, count_held_rows, find_frames
 
 Array = np.ndarray
 
@@ -65,3 +65,28 @@ def test_four_frames_are_too_few() -> None:
     time, values = held(0.005, 0.02)
     assert find_frames(time[:20], values[:20]) is None
     assert find_frames(time[:100], values[:100]) is not None
+
+
+def buffered(rows: int, noise: float = 4.0) -> Array:
+    """Whole values that stay for some rows, but for 40 of them on end that came one a row, after every 200."""
+    random = np.random.default_rng(7)
+    values = np.rint(3.0 * motion(0.001 * np.arange(9000.0)) + random.normal(0.0, noise, 9000))
+    stays = np.where(np.arange(9000) % 240 < 200, rows, 1)
+    return np.repeat(values, stays)
+
+
+@pytest.mark.parametrize("rows", [2, 3, 5])
+def test_values_that_are_held_but_for_some_that_came_too_soon(rows: int) -> None:
+    values = buffered(rows)
+    assert find_frames(0.0005 * np.arange(len(values)), values) is None, "they lie on no even grid"
+    assert count_held_rows(values) == rows
+
+
+def test_values_that_are_not_held_or_never_seen_to_be() -> None:
+    assert count_held_rows(buffered(1)) == 0 and count_held_rows(np.zeros(100)) == 0 == count_held_rows(np.ones(1))
+    assert count_held_rows(buffered(2)[:300]) == 0, "too few"
+    for step in (5.0, 20.0):
+        slow = np.floor(motion(np.arange(0.0, 10.0, 0.001)) / step) * step
+        assert count_held_rows(slow) == 0, "they stay for as long as they like"
+    mostly = np.concatenate((buffered(2), buffered(1), buffered(1), buffered(1)))
+    assert count_held_rows(mostly) == 0
