@@ -6,10 +6,11 @@ from math import sqrt
 import numpy as np
 
 from motor_identification.logs.signals import Floats
-from motor_identification.sensor.value_lattice import find_lattice
+from motor_identification.sensor.value_lattice import LEAST_PLACES, find_lattice
 
 LEAST_LEVELS = 10  # different values, fewer of which show no steps
 ON_GRID = 0.05  # counts: how far positions may lie beside whole counts before the user is told
+MOST_DIGITS = 1e15  # that a number has without a rounding of its own
 FARTHEST = 1e100  # in any unit: the squares of larger numbers are no numbers, and no encoder counts that far
 
 
@@ -53,16 +54,28 @@ def find_position_lattice(values: Floats) -> Lattice | None:
 
 
 def _lattice_of_ways(values: Floats) -> Lattice | None:
-    """What all ways from row to row are multiples of, if all positions are, too."""
+    """What all ways from row to row are multiples of, if all positions are, too.
+
+    Those of a motor that runs evenly are a few: not how many differ, but how many positions fit shows a lattice.
+    """
     ways = np.diff(values)
-    if len(np.unique(ways)) < LEAST_LEVELS:
+    if len(np.unique(values)) < LEAST_LEVELS:
         return None
-    step = find_lattice(ways)
+    step = find_lattice(ways) or _common_digits(ways)
     if step == 0.0:
         return None
     numbers, first = np.unique(np.append(0.0, np.cumsum(np.rint(ways / step))), return_index=True)
     lattice = _fit_lattice(values[first], numbers)
     return lattice if lattice.holds(values) else None
+
+
+def _common_digits(ways: Floats) -> float:
+    """What a few different ways, shape (L,), have in common of their printed digits; 0 where they have more."""
+    digit = printed_digit(ways)
+    if digit == 0.0 or np.max(np.abs(ways)) > MOST_DIGITS * digit:
+        return 0.0
+    different = np.unique(np.rint(np.abs(ways) / digit).astype(np.int64))
+    return digit * float(np.gcd.reduce(different)) if len(different) < LEAST_PLACES else 0.0
 
 
 def _lattice_of_neighbours(values: Floats) -> Lattice | None:

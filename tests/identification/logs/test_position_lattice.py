@@ -59,3 +59,18 @@ def test_the_last_digit_that_was_printed(values: list[float], digit: float) -> N
 def test_an_even_motion_is_no_lattice_of_its_ways() -> None:
     """All ways from row to row are within 8 % of each other, and add up to anything."""
     assert position_step(np.cumsum(np.random.default_rng(8).uniform(9.6, 10.4, 300))) == 0.0
+
+
+@pytest.mark.parametrize("unit", [1.0, 0.1, 0.01])
+@pytest.mark.parametrize("ways", [(2, 3, 5, 6, 7, 8, 9), (4, 5), (5, 6, 8), (7,)])
+def test_the_step_of_a_motor_that_runs_evenly(ways: tuple[int, ...], unit: float) -> None:
+    """As of whole degrees in each row: they are few different ones, of which none is the step."""
+    moved = np.cumsum(np.random.default_rng(9).choice(ways, 168))
+    expected = 1.0 if len(ways) > 1 else 7.0
+    assert position_step(np.round(moved * unit, 3)) == pytest.approx(expected * unit, rel=1e-9)
+    assert position_step(np.round(moved * unit, 3)[: LEAST_LEVELS - 1]) == 0.0
+
+
+def test_few_ways_that_nothing_was_printed_of_are_no_lattice() -> None:
+    moved = np.cumsum(np.random.default_rng(9).choice([np.sqrt(2.0), np.sqrt(3.0)], 168))
+    assert position_step(moved) == 0.0 == position_step(np.cumsum(np.resize([2e30, 3e30], 60)))
