@@ -16,7 +16,7 @@ ROWS = Rows("t", "s", 0.01)
 def form(said: Said, notes: Notes, motion: str = "speed [rpm]", drive: str = "pwm", **extra: object) -> CsvForm:
     time = 0.01 * np.arange(1, 101)
     volts = np.repeat([100.0, -200.0], 50)
-    table = Table(Path("log.csv"), np.arange(100), {"t": time, drive: volts, motion: np.cumsum(volts), **extra})  # type: ignore[arg-type]
+    table = Table(Path("log.csv"), np.arange(100), {"t": time, drive: volts, motion: 0.5 * np.cumsum(volts), **extra})  # type: ignore[arg-type]
     supply = next((name for name in extra if name == "battery"), None)
     current = next((name for name in extra if name.startswith("i")), None)
     return make_form(table, Pair("", drive, motion), Roles("t", (), supply, current), said, ROWS, notes)

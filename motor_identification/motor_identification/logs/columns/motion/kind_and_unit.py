@@ -10,6 +10,7 @@ from motor_identification.logs.columns.behaviour.following import is_speed_by_dr
 from motor_identification.logs.columns.heading import Heading, is_in_volts, is_of_joint_states, read_heading
 from motor_identification.logs.columns.motion.movement import (
     ASKED,
+    OF_COUNTS,
     SLIDES,
     Unit,
     guess_kind,
@@ -28,6 +29,7 @@ from motor_identification.logs.form import LENGTHS, UNITS, Kind
 Floats = NDArray[np.float64]
 
 WHOLE_DEGREES = 360  # counts a turn, which are degrees as well
+WHOLE_UNITS = (WHOLE_DEGREES, 60)  # counts a turn, one of which in a second is 1 deg/s, or 1 rpm
 ELECTRICAL = "of electrical turns: speeds are those of the shaft times its pole pairs"
 _KINDS = {Quantity.SPEED: Kind.SPEED, Quantity.POSITION: Kind.POSITION, Quantity.COUNT: Kind.COUNT}
 _ORDER = (Kind.SPEED, Kind.COUNT, Kind.POSITION)  # `count` is a count before it is a position
@@ -118,6 +120,8 @@ def _unit(table: Table, heading: Heading, kind: Kind, said: Said, period: float,
     guessed = guess_speed_unit(values, window, rows) if kind is Kind.SPEED else guess_position_unit(values)
     if not guessed.name and "count" in guessed.candidates and said.edges_per_revolution not in (None, WHOLE_DEGREES):
         return Unit("count", "as the counts of a turn are said; otherwise: --unit")
+    if not guessed.name and guessed.candidates == OF_COUNTS and said.edges_per_revolution not in (None, *WHOLE_UNITS):
+        return Unit("count/s", "as the counts of a turn are said; otherwise: --unit")
     if not guessed.name and stamps is not None:
         tell = tell_speed_unit if kind is Kind.SPEED else tell_position_unit
         guessed = tell(table, heading, stamps) or guessed
@@ -137,7 +141,7 @@ def _ask_about(
         options = f"{', '.join(unit.candidates[:-1])} or {unit.candidates[-1]}"
         if set(ASKED[kind]) <= set(unit.candidates):
             options += f", or of a slide in {SLIDES[kind]}"
-        counted = kind is Kind.SPEED and not np.any(values % 1.0)
+        counted = kind is Kind.SPEED and not np.any(values % 1.0) and "count/s" not in unit.candidates
         size = "" if said.edges_per_revolution else " and --edges-per-revolution N"
         counts = f", or --count {column}{size} where they are the counts of each row" if counted else ""
         speed = f", or one of {', '.join(ASKED[Kind.SPEED])} to read {speed_beside} instead" if speed_beside else ""

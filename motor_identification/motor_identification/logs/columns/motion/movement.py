@@ -29,6 +29,7 @@ FORGETS = 5.0  # time constants in a recording, from which on a column is a spee
 UNSURE = (1.0, 20.0)  # time constants that a column of either may seem to have
 PROPORTIONAL = -0.99  # correlation of what such a controller drives with its output
 ASKED = {Kind.SPEED: ("rad/s", "deg/s", "rpm"), Kind.POSITION: ("rad", "deg", "rev", "count")}
+OF_COUNTS = ("count/s", "deg/s", "rpm")  # units of speeds of which one within a row may be what was counted
 SLIDES = {Kind.SPEED: "mm/s or m/s", Kind.POSITION: "mm or m"}  # what moves along, and of no turn
 
 
@@ -78,6 +79,8 @@ def guess_speed_unit(values: Floats, window: float, stamps: Floats | None = None
     """
     asked = ASKED[Kind.SPEED]
     step = find_lattice(values) if len(values) > 20 and window > 0.0 else 0.0
+    if step > 1.0 and abs(step * window - 1.0) < WHOLE:
+        return Unit("", "", OF_COUNTS)  # 1 of it within the window: no angle in rad, and no digit of whole numbers
     if step <= 0.0 or _is_printed(values, step):
         return Unit("", "", asked)
     counts = {name: tau / (step * (UNITS[Kind.SPEED][name] or 1.0) * window) for name in asked}

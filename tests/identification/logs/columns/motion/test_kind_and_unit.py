@@ -81,6 +81,21 @@ def test_a_named_position_in_whole_numbers_is_asked_for_as_it_is_no_angle_in_rad
     assert unit or "in count or deg, which the numbers do not tell: say --unit" in notes.questions[0][1]
 
 
+@pytest.mark.parametrize(("edges", "unit"), [(334, "count/s"), (360, ""), (60, ""), (None, "")])
+@pytest.mark.parametrize("named", [False, True])
+def test_speeds_of_whole_counts_over_a_row_are_no_radians(edges: int | None, unit: str, named: bool) -> None:
+    """As where a program divides what it counted by the row's 10 ms: all are multiples of 100."""
+    time = 0.01 * np.arange(1, 101)
+    speed = 100.0 * np.floor(13.0 * np.sin(time) + 2.0 * np.sin(40.0 * time))
+    notes = Notes([], [])
+    table = Table(Path("log.csv"), np.arange(100), {"t": time, "u": np.repeat([5.0, -5.0], 50), "Speed": speed})
+    said = Said(edges_per_revolution=edges, **({"motion": "Speed", "kind": Kind.SPEED} if named else {}))
+    made = make_form(table, Pair("", "u", "Speed"), Roles("t", (), None, None), said, ROWS, notes)
+    assert (made.unit == "count/s" and notes.questions == []) == bool(unit)
+    asked = "in count/s, deg/s or rpm, which the numbers do not tell: say --unit"
+    assert unit or notes.questions[0][1] == asked
+
+
 @pytest.mark.parametrize(("edges", "unit"), [(256, "count"), (360, ""), (None, "")])
 def test_whole_positions_are_counts_where_those_of_a_turn_are_said(edges: int | None, unit: str) -> None:
     time = 0.01 * np.arange(1, 101)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from motor_identification.logs.columns.motion.movement import (
+    OF_COUNTS,
     guess_kind,
     guess_position_unit,
     guess_speed_unit,
@@ -69,6 +70,16 @@ def test_speeds_without_counts_do_not_tell_their_unit() -> None:
         assert found.name == "" and found.candidates == ("rad/s", "deg/s", "rpm")
     counted = np.rint(speeds() * 0.01 * 360 / tau) * tau / 360 / 0.01 * 60 / tau  # 360 a turn: 2,160 in deg/s
     assert set(guess_speed_unit(counted, 0.01).candidates) == {"deg/s", "rpm"}
+
+
+@pytest.mark.parametrize(
+    ("step", "window", "of_counts"),
+    [(100.0, 0.01, True), (100.0, 0.00998, True), (100.0 / 3.0, 0.03, True), (50.0, 0.01, False), (1.0, 1.0, False)],
+)
+def test_one_of_a_unit_within_a_window_is_a_count_of_it(step: float, window: float, of_counts: bool) -> None:
+    """Nobody prints hundreds alone; whole numbers may be digits."""
+    found = guess_speed_unit(step * np.rint(speeds() * 0.5), window)
+    assert found.name == "" and (found.candidates == OF_COUNTS) == of_counts
 
 
 @pytest.mark.parametrize(
