@@ -8,6 +8,7 @@ from itertools import count, groupby
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
+from motor_identification.logs.columns.behaviour.edge_times import counts_on
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import CsvForm
 from motor_identification.logs.rows.bursts import spread_bursts
@@ -138,12 +139,15 @@ def _check_clock(signals: Signals, gaps: int) -> None:
 
 
 def drop_first_rows(signals: Signals) -> tuple[Signals, list[str]]:
-    """Leave out the first row of a run that was logged long before the second."""
+    """Leave out the first row of a run that was logged long before the second.
+
+    Not where rows come with the counts: a motor that stood takes long to its first one.
+    """
     keep = np.ones(len(signals), np.bool_)
     limit = LATE * _period(signals)
     for run in signals.runs.values():
-        if run.stop - run.start > 2 and signals.time[run.start + 1] - signals.time[run.start] > limit:
-            keep[run.start] = False
+        late = run.stop - run.start > 2 and signals.time[run.start + 1] - signals.time[run.start] > limit
+        keep[run.start] = not late or counts_on(signals.motion[run])
     dropped = int((~keep).sum())
     if not dropped:
         return signals, []

@@ -112,6 +112,14 @@ def test_a_first_row_of_long_before_is_left_out(late: float, left: int) -> None:
     assert len(kept) == left and bool(said) == (left == 11)
 
 
+def test_the_first_of_rows_that_come_with_the_counts_is_kept() -> None:
+    """A motor that stood takes long to its first edge, and the rest before it is known."""
+    signals = timed(0.0, *(0.01 * (9.0 + np.arange(11))))
+    counted = replace(signals, motion=np.arange(12.0))
+    assert len(drop_first_rows(counted)[0]) == 12 and drop_first_rows(counted)[1] == []
+    assert len(drop_first_rows(replace(signals, motion=np.arange(12.0) % 5.0))[0]) == 11
+
+
 def test_a_run_may_begin_when_the_rest_ends_but_not_before() -> None:
     signals, rows = timed(0.1, 0.2), table(t=["0.1", "0.2"])
     check_rest(signals, rows, replace(FORM, rest_until=0.1))
