@@ -2,6 +2,8 @@
 
 from dataclasses import replace
 
+import numpy as np
+import pytest
 from bench_board import DEFAULTS, drive, motor, settings
 
 from motor_control.announcements import Line, Told, announce, describe_start, top_speed_of
@@ -11,6 +13,7 @@ from motor_control.controller.output import DISABLED, NO_SAMPLES, RUNNING, STOPP
 from motor_model.sample import Info
 
 CONFIG = config_of(DEFAULTS, Info())
+RAW = {"speed_source": "measured", "feedforward": False, **{key: DEFAULTS[key] for key in ("kp", "ki")}}
 
 
 def say(rows: list[tuple[Output, float | None]], every: float = 0.005) -> list[str]:
@@ -113,3 +116,49 @@ def test_a_reference_that_is_reached_saturates_nothing() -> None:
 def test_the_top_speed_is_the_models() -> None:
     assert 166.0 < top_speed_of(settings(motor(), Info())) < 170.0
     assert top_speed_of(CONFIG) == float("inf")
+
+
+@pytest.mark.parametrize(
+    ("kv", "ka", "rate", "count"),
+    [
+        (0.02, 0.001, 100.0, 1),
+        (0.02, 0.001, 200.0, 1),
+        (0.02, 0.001, 50.0, 0),  # at which gains are lowered
+        (0.07, 0.0055, 100.0, 0),
+        (0.4, 0.02, 200.0, 0),
+        (2.0, 0.1, 200.0, 0),
+    ],
+)
+def test_a_voltage_that_swings_between_all_and_nothing_is_said_once(
+    kv: float, ka: float, rate: float, count: int
+) -> None:
+    """A motor of 600 rad/s with the gains of one of 174 went from 218 to 381 rad/s and back, and nobody said so."""
+    reference = 0.5 * 12.0 / kv
+    for wanted in (reference, -reference):
+        run = drive(motor(kv=kv, ka=ka), wanted, 4.0, rate=rate, configs=((0.0, {"model": None}),), **RAW)
+        told, said = Told(), []
+        for time, output in zip(run.time, run.outputs, strict=True):
+            lines, told = announce(told, output, wanted, CONFIG, float(time))
+            said += [line for line in lines if "swings between all and nothing, 8 times in 0." in line.text]
+        assert len(said) == count and all(line.severe for line in said)
+        assert all("kp 0.2 and ki 2.5 are too much for this motor" in line.text for line in said)
+        speeds = run.speed[len(run.speed) // 2 :] / wanted
+        assert bool(np.std(speeds) > 0.05) is (count > 0)
+
+
+@pytest.mark.parametrize(("turns", "said"), [(7, False), (8, True)])
+@pytest.mark.parametrize("way", [1.0, -1.0])
+def test_it_takes_eight_swings_within_two_seconds_at_one_reference(turns: int, said: bool, way: float) -> None:
+    def count(every: float, restart: bool = False, off: bool = False) -> int:
+        told, lines, time = Told(), list[Line](), 0.0
+        for k in range(turns):
+            wanted = way * (50.0 + restart * (k == 4))
+            output = running()
+            terms = replace(output.terms, voltage=way * (11.9 if k % 2 == 0 else 0.1))
+            state = halt(DISABLED, "off", 50.0, 49.0) if off and k == 4 else replace(output, terms=terms)
+            new, told = announce(told, state, wanted, CONFIG, time)
+            lines, time = [*lines, *(line for line in new if "swings" in line.text)], time + every
+        return len(lines)
+
+    assert count(0.28) == said
+    assert count(0.3) == count(0.1, restart=True) == count(0.1, off=True) == 0
