@@ -25,6 +25,9 @@ MOST = 16  # senders that are remembered
 # longer; else it is somebody's who is heard for the first time.
 CLOSEST, FARTHEST = 0.5, 2.0
 HELD_UP, MOST_LOST = 4.0, 8.0  # [s] in which messages are lost at most, and of a slow stream so many
+# A stream that overtakes another's numbers shares one or two of them; of two that are one number apart, every other
+# message may be either's, and so many of the latest tell these from those.
+MANY, LATEST = 3, 8
 LISTENED = 0.2  # [s] after which a pace is known
 YOUNG = 2.5  # [s] of messages that a sender may have sent unheard: `ros2 topic pub` waits for nobody, once a second
 # [s] by which it may have begun before the controller. That takes as long to start: no controller before it has heard
@@ -53,6 +56,7 @@ class Sender:
     forgiven: int = -1  # how many had, of which the last one ended by its time alone
     first: tuple[int, float] | None = None  # number and time [s] of what was first heard, until its age is known
     period: float = 0.0  # [s] the shortest between two with successive numbers; 0: not known
+    shared: int = 0  # which of its latest messages may have been another stream's, a bit each
 
     def count_steps(self, message: Message) -> int:
         """Count the messages from the latest one to this; 0: it is not this sender's."""
@@ -125,13 +129,14 @@ class Senders:
 
         since [s]: when the controller began; introduced: when the latest publisher was first seen to be there.
         """
-        found, doubted = self._find(message)
+        found, shared, doubted = self._find(message)
         others = tuple(one for one in self.known if one is not found)
         firsts = self.firsts
         if found is not None:
             sender = found.hear(_without_stop(message, doubted), since)
-            if doubted and not message.stops:  # it may be the barred stream's from here on
-                sender = replace(sender, obeyed=-1, forgiven=-1)
+            sender = replace(sender, shared=(sender.shared << 1 | shared) % 2**LATEST)
+            if doubted and not message.stops and sender.shared.bit_count() >= MANY:
+                sender = replace(sender, obeyed=-1, forgiven=-1)  # it may be the barred stream's from here on
         elif message.number == 1:
             firsts = firsts.hear(message.now, message.stops)
             sender = _start(message, firsts.begins or self.forgiven == self.ended, self.longest)
@@ -195,8 +200,8 @@ class Senders:
         known = (replace(one, sequence=replace(one.sequence, single=nan)) for one in self.known)
         return replace(self, known=tuple(known))
 
-    def _find(self, message: Message) -> tuple[Sender | None, bool]:
-        """Find whose next message it is, and whether it may be of a stream as well that goes on beyond an end.
+    def _find(self, message: Message) -> tuple[Sender | None, bool, bool]:
+        """Find whose next message it is, whether it may be another stream's, and one's that goes on beyond an end.
 
         Where it may be several's, it is one's who goes on, and whose pace it fits best. A stream that was ended passes
         the number at which another one fell silent, which begins with its next message; and two of one launch file are
@@ -205,7 +210,7 @@ class Senders:
         able = [one for one in self.known if one.count_steps(message)]
         found = min(able, key=lambda one: self._rank(one, message), default=None)
         others = [one for one in able if one is not found and one.is_stream and one.goes_on(message)]
-        return found, not all(self._trusts(one) for one in others)
+        return found, bool(others), not all(self._trusts(one) for one in others)
 
     def _rank(self, one: Sender, message: Message) -> tuple[bool, float, int, bool]:
         pace = one.measure_deviation(message)

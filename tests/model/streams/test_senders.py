@@ -322,3 +322,22 @@ def test_of_two_streams_that_are_one_number_apart_the_0_of_one_does_not_let_the_
         assert not hall.says(k + 2, (k + offset) * period)
     assert hall.says(121, 120 * period, 0.0)  # the last that it says
     assert not any(hall.says(k + 2, (k + offset) * period) for k in range(120, 400))
+
+
+@pytest.mark.parametrize("period", [0.01, 0.02, 0.05])
+@pytest.mark.parametrize(("slow", "offset"), [(0.2, 0.3), (0.1, 0.45), (0.1, 0.81)])
+def test_who_overtakes_the_number_of_a_barred_stream_is_not_obeyed_then_and_goes_on(
+    period: float, slow: float, offset: float
+) -> None:
+    """A joystick beside a forgotten stream in another shell was not obeyed from there on, until it sent 0."""
+    hall = Hall()
+    sent = [(k * slow, k + 1, "forgotten") for k in range(200)]
+    sent += [(5.0 + offset * slow + k * period, k + 1, "joystick") for k in range(1500)]
+    heard: list[tuple[str, bool]] = []
+    for now, number, who in sorted(one for one in sent if one[0] < 20.0):
+        if heard and not hall.senders.ended and now > 3.0:
+            hall.end()
+        heard.append((who, hall.says(number, now, 0.0 if number == 1 and who == "joystick" else 60.0 + now)))
+    joystick = [obeyed for who, obeyed in heard if who == "joystick"]
+    assert joystick.count(False) <= 2 and all(joystick[-50:])
+    assert not any(obeyed for who, obeyed in heard[-200:] if who == "forgotten")
