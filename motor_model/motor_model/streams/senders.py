@@ -191,9 +191,14 @@ class Senders:
 
     @property
     def streams(self) -> bool:
-        """Whether what is asked for is the latest message of a stream: who is obeyed has sent more than one."""
+        """Whether what is asked for is the latest message of a stream: who is obeyed has sent more than one.
+
+        Of those whom nobody counts two far apart are two commands in a shell.
+        """
         obeyed = [one for one in self.known if one.obeyed == self.ended]
-        return bool(obeyed) and obeyed[-1].is_stream
+        if not obeyed or not obeyed[-1].is_stream:
+            return False
+        return obeyed[-1].number is not None or obeyed[-1].sequence.latest <= LONGEST
 
     def trust_single(self) -> "Senders":
         """Take a sender that has asked once for no stream: somebody who looks expects the same again."""

@@ -341,3 +341,22 @@ def test_who_overtakes_the_number_of_a_barred_stream_is_not_obeyed_then_and_goes
     joystick = [obeyed for who, obeyed in heard if who == "joystick"]
     assert joystick.count(False) <= 2 and all(joystick[-50:])
     assert not any(obeyed for who, obeyed in heard[-200:] if who == "forgotten")
+
+
+@pytest.mark.parametrize(
+    ("numbers", "apart", "streams"),
+    [
+        ((1, 2), 0.1, True),
+        ((1, 2), 5.0, True),
+        ((None, None), 0.1, True),
+        ((None, None), 5.0, False),
+        ((1, 1), 5.0, False),
+    ],
+)
+def test_two_commands_in_a_shell_are_no_stream_whether_or_not_the_middleware_counts(
+    numbers: tuple[int | None, int | None], apart: float, streams: bool
+) -> None:
+    """It was said after each second one that whoever had sent them had ended, where they are one sender's."""
+    hall = Hall()
+    assert hall.says(numbers[0], 10.0, 60.0) and not hall.senders.streams
+    assert hall.says(numbers[1], 10.0 + apart, 80.0) and hall.senders.streams is streams
