@@ -11,7 +11,7 @@ from motor_control.controller.faults.stall import REPORTABLE
 from motor_control.controller.faults.unexpected_edges import FEW_SLOTS
 from motor_control.controller.reference import position_law
 from motor_control.controller.run import Config
-from motor_control.controller.timing.sample_rate import SLOWEST, are_few, lower_gains
+from motor_control.controller.timing.sample_rate import SLOWEST, are_few, lower_gains, warn_of_swing
 from motor_model.errors import MotorError
 from motor_model.model_file import load
 from motor_model.parameters import Parameters
@@ -173,6 +173,7 @@ def _add_model(config: Config, values: Mapping[str, Value], info: Info | None, m
     shown = forward.fastest / config.faults.slot if config.faults.slot else inf
     return replace(
         config,
+        note=config.note or warn_of_swing(config.gains, faults, config.sample_period),
         reference_rate_limit=rate_limit,
         gentle=gentle,
         observer=watcher,

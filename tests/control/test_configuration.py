@@ -49,6 +49,12 @@ def test_samples_that_are_too_few_for_the_checks_are_said(rate: float, few: bool
     assert output.reason == "" if not few else f"Only {rate:.3g} samples a second" in output.reason
 
 
+@pytest.mark.parametrize(("kp", "said"), [(0.2, False), (2.0, True)])
+def test_gains_that_are_too_large_for_the_model_and_200_samples_a_second_are_said(kp: float, said: bool) -> None:
+    config = config_of({**DEFAULTS, "kp": kp}, Info(), motor())
+    assert config.gains.kp == kp and ("motor_control tune" in config.note) is said
+
+
 @pytest.mark.parametrize(("quadrature", "even"), [(0, True), (1, True), (2, False), (4, False)])
 def test_edges_are_even_where_one_flank_a_period_is_counted(quadrature: int, even: bool) -> None:
     assert config_of(DEFAULTS, Info(quadrature=quadrature), None).faults.even == even

@@ -31,6 +31,10 @@ LOWERED = (
     "Only {:.3g} samples a second come: kp and ki would let the motor swing, the loop works with {:.2g} and {:.2g}, "
     "and some faults of the encoder's line are not noticed below {:g}: raise the plant's sample_rate."
 )
+WILD = (
+    "By its model the motor would swing under kp and ki with {:.3g} samples a second: compute them with ros2 run "
+    "motor_control tune, or raise the plant's sample_rate."
+)
 BY_GUESS = " Without a model it is guessed how low they have to be."
 
 
@@ -49,17 +53,32 @@ def lower_gains(
     if kv == 0.0:
         (kv, time_constant), share = _guess(gains), GUESSED
         kv = min(kv, voltage_limit / most) if most > 0.0 else kv
-    kp = kv / expm1(min(sample_period / max(time_constant, BRIEF), MOST))
-    ki = kv / sample_period
+    kp, ki = _find_most(kv, time_constant, sample_period)
     if gains.kp <= kp and gains.ki <= ki:
         return gains
     return pi.Config(min(gains.kp, share * kp), min(gains.ki, share * ki), gains.limit)
+
+
+def warn_of_swing(gains: pi.Config, faults: FaultConfig, sample_period: float) -> str:
+    """Say, as a sentence, that gains are too large for samples [s] apart, and not lowered; "" if they are not.
+
+    Known with a model alone; the gains are their user's, who may know better.
+    """
+    if faults.kv == 0.0 or sample_period == 0.0 or are_few(sample_period):
+        return ""
+    kp, ki = _find_most(faults.kv, faults.time_constant, sample_period)
+    return WILD.format(1.0 / sample_period) if gains.kp > kp or gains.ki > ki else ""
 
 
 def explain_lowering(lower: pi.Config, faults: FaultConfig, sample_period: float) -> str:
     """Say, as a sentence, that the loop works with lower gains than those that are set."""
     said = LOWERED.format(1.0 / sample_period, lower.kp, lower.ki, SLOWEST)
     return said if faults.kv > 0.0 else said + BY_GUESS
+
+
+def _find_most(kv: float, time_constant: float, sample_period: float) -> tuple[float, float]:
+    """Find kp and ki which take back all of an error in one sample, and beyond which a motor swings."""
+    return kv / expm1(min(sample_period / max(time_constant, BRIEF), MOST)), kv / sample_period
 
 
 def _guess(gains: pi.Config) -> tuple[float, float]:

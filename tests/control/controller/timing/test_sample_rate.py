@@ -12,7 +12,14 @@ from tuning_bench import tuning
 from motor_control.configuration import config_of
 from motor_control.controller import controller, pi
 from motor_control.controller.faults.evidence import Config as FaultConfig
-from motor_control.controller.timing.sample_rate import GUESSED, SHARE, are_few, explain_lowering, lower_gains
+from motor_control.controller.timing.sample_rate import (
+    GUESSED,
+    SHARE,
+    are_few,
+    explain_lowering,
+    lower_gains,
+    warn_of_swing,
+)
 from motor_control.controller.timing.timekeeping import find_longest_hold
 from motor_control.tuning.speed_feedback import MEASURED, OBSERVER
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
@@ -76,12 +83,33 @@ def test_lower_gains_are_gains(kp: float, ki: float, rate: float, kv: float, lag
     assert 0.0 <= after.kp <= kp and 0.0 <= after.ki <= ki
 
 
-@pytest.mark.parametrize("rate", [20.0, 50.0])
+@pytest.mark.parametrize("rate", [20.0, 50.0, 200.0, 1000.0])
 @pytest.mark.parametrize("source", [MEASURED, OBSERVER])
 def test_what_tune_designs_for_a_rate_is_borne(rate: float, source: str) -> None:
     found = tuning(sample_period=1.0 / rate, source=source).gains
     gains = pi.Config(found.kp, found.ki, 12.0)
     assert lower(rate, gains) is gains
+    assert warn_of_swing(gains, KNOWN, 1.0 / rate) == ""
+
+
+@pytest.mark.parametrize(
+    ("rate", "top", "lag", "warns"),
+    [
+        (100, 600.0, 0.05, True),  # 218 to 381 rad/s where 300 were asked for, and as those below nobody said it
+        (200, 600.0, 0.05, True),
+        (1000, 600.0, 0.05, False),  # 297 to 303
+        (100, 300.0, 0.05, True),
+        (200, 300.0, 0.05, False),  # 149 to 152 of 150
+        (1000, 600.0, 0.01, True),
+        (100, 30.0, 0.05, False),
+        (50, 600.0, 0.05, False),  # there they are lowered
+    ],
+)
+def test_default_gains_that_let_a_fast_motor_swing_are_said_with_its_model(
+    rate: int, top: float, lag: float, warns: bool
+) -> None:
+    assert bool(warn_of_swing(GAINS, FaultConfig(kv=12.0 / top, time_constant=lag), 1.0 / rate)) is warns
+    assert warn_of_swing(GAINS, UNKNOWN, 1.0 / rate) == "" == warn_of_swing(GAINS, KNOWN, 0.0)
 
 
 def test_the_sentence_says_what_the_loop_works_with() -> None:
