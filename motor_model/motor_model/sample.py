@@ -55,6 +55,7 @@ class Info:
     quadrature: int = 1  # counts in a period of one channel: 1 (one polarity), 2, 4; 0 is 1
     gear_ratio: float = 0.0  # encoder turns per turn of the output, which speeds and angles are of; 0: none
     voltage_assumed: bool = False  # of an imported log: nobody said that a voltage holds from its sample on
+    rows_said: bool = False  # of an imported log: somebody said by which length of a row its speeds were divided
 
     @property
     def gear(self) -> Fraction:

@@ -164,7 +164,11 @@ def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log
         for label, rows in signals.runs.items()
     ]
     runs, still = leave_out_still_runs(made)
-    info = replace(motion.info, voltage_assumed=form.voltage_before is None and not found)
+    info = replace(
+        motion.info,
+        voltage_assumed=form.voltage_before is None and not found,
+        rows_said=form.nominal_period is not None,
+    )
     return Log(info, runs, (about, *said, *motion.findings, applied, *rest, *still))
 
 

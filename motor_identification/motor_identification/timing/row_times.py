@@ -23,7 +23,7 @@ LATE = (
 )
 NOMINAL = (
     "The speeds were computed as if every row took {:.4g} ms: they are divided by the rows' own lengths, which the "
-    "motion follows."
+    "motion follows (otherwise: import_log --no-nominal-period)."
 )
 
 
@@ -38,7 +38,7 @@ class RowTimes:
         """Read a recording of speeds by the clock of its rows, which is its sample period's, and by their lengths."""
         if self.run_away is not None:
             recording = _lay_clock(recording, self.run_away)
-        if self.nominal:
+        if self.nominal and not recording.info.rows_said:
             lengths = _measure_lengths(recording)
             recording = replace(recording, speed=recording.speed * (measure_period(lengths) / lengths))
         return recording
@@ -48,7 +48,7 @@ class RowTimes:
         notes, row = [], 1e3 * timed.info.sample_period
         if timed.sample_time is not recording.sample_time:
             notes.append(LATE.format(row, 1e-6 * float(np.std(recording.sample_time - timed.sample_time))))
-        if self.nominal:
+        if self.nominal and not recording.info.rows_said:
             notes.append(NOMINAL.format(row))
         return notes
 
@@ -64,7 +64,7 @@ def list_row_times(recording: Recording) -> list[RowTimes]:
         times
         for share in clocks
         for nominal in (False, True)
-        if (times := RowTimes(share, nominal)) != AS_STAMPED and not (nominal and _is_even(recording, share))
+        if (times := RowTimes(share, nominal)) != AS_STAMPED and not (nominal and _says_lengths(recording, share))
     ]
 
 
@@ -73,6 +73,11 @@ def _measure_lengths(recording: Recording) -> Floats:
     rows = np.diff(recording.time)
     usual = float(np.median(rows))
     return np.asarray(np.append(usual, np.where(rows < LONGEST * usual, rows, usual)))
+
+
+def _says_lengths(recording: Recording, share: float | None) -> bool:
+    """Decide whether nobody has to ask by which lengths speeds were divided: it was said, or rows are of one."""
+    return recording.info.rows_said or _is_even(recording, share)
 
 
 def _is_even(recording: Recording, share: float | None) -> bool:

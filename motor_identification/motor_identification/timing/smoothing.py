@@ -159,10 +159,13 @@ def _make(kind: str, number: float) -> SpeedFilter | None:
 
 
 class Likelihood:
-    """The likelihood of speeds as they were logged, by the filter that they passed."""
+    """The likelihood of speeds as they were logged, by the filter that they passed.
 
-    def __init__(self, shaper: Shaper, timing: Timing) -> None:
-        self.shaper, self.timing, self.count = shaper, timing, 0
+    count: of how many; 0: as many as are used without a filter. Readings of which one leaves out speeds compare by one.
+    """
+
+    def __init__(self, shaper: Shaper, timing: Timing, count: int = 0) -> None:
+        self.shaper, self.timing, self.count = shaper, timing, count
         self._known: dict[SpeedFilter | None, float] = {}
 
     def of(self, passed: SpeedFilter | None) -> float:

@@ -118,12 +118,15 @@ def _list_shaping(effects: Sequence[str], late: Sequence[str] = ()) -> tuple[str
 def _find_row_times(shaper: Shaper, timing: Timing) -> RowTimes:
     """Find the times of rows by which speeds are much likelier than by their stamps, as a timing has these.
 
-    By what is assumed, too: behind late stamps there may be no filter, though one made up for them.
+    By what is assumed, too: behind late stamps there may be no filter, though one made up for them. Of as many speeds
+    either way: those that are off the lattice of counts once they are divided are left out, and would count as likely.
     """
     stamped = Likelihood(shaper, timing)
     least = stamped.of(timing.filter) + _find_least_gain(stamped.count)
     likely = {
-        rows: max(Likelihood(replace(shaper, rows=rows), one).of(one.filter) for one in {timing, ASSUMED})
+        rows: max(
+            Likelihood(replace(shaper, rows=rows), one, stamped.count).of(one.filter) for one in {timing, ASSUMED}
+        )
         for rows in list_row_times(max(shaper.recordings, key=len))
     }
     most = max(likely.values(), default=least)

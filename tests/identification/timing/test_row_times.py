@@ -15,6 +15,7 @@ from motor_identification.recording import Floats, Recording, check
 from motor_identification.sensor.row_clock import measure_period
 from motor_identification.timing import speed_timing
 from motor_identification.timing.row_times import AS_STAMPED, LONGEST, RowTimes, list_row_times
+from motor_identification.timing.shaped_fit import Shaper
 from motor_identification.timing.speed_filter import MEMORY, SpeedFilter
 from motor_identification.timing.speed_timing import find_timing
 from motor_identification.timing.timing import ASSUMED, Timing, read_again
@@ -80,6 +81,41 @@ def test_a_clock_has_to_be_much_likelier(limit: float, kept: bool, monkeypatch: 
     monkeypatch.setattr(speed_timing, "LEAST_GAIN", limit)
     found = timing_of(logged(EVEN, LATE))
     assert (found.rows == AS_STAMPED) == kept
+
+
+@pytest.mark.parametrize(("of_nominal", "nominal"), [(-3.1, False), (-2.9, True)])
+def test_speeds_that_a_reading_leaves_out_do_not_speak_for_it(
+    of_nominal: float, nominal: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of a log with lost rows the speeds behind them were halved: off the lattice then, a tenth of all was left out."""
+
+    class Known:
+        """Likelihoods a speed, of 1500 by the stamps and of 1350 where each is divided by its own row's length."""
+
+        def __init__(self, shaper: Shaper, timing: Timing, count: int = 0) -> None:
+            self.mean = of_nominal if shaper.rows.nominal else -3.0
+            self.count = count or (1350 if shaper.rows.nominal else 1500)
+
+        def of(self, passed: SpeedFilter | None) -> float:
+            return self.count * self.mean
+
+    recording = logged(UNEVEN, ON_TIME)
+    estimate, _ = search_globally(make_problem([recording], ()), SearchConfig())
+    monkeypatch.setattr(speed_timing, "Likelihood", Known)
+    found = find_timing([recording], estimate, filtered=False) or ASSUMED
+    assert found.rows == RowTimes(None, nominal)
+
+
+def test_what_was_said_of_the_rows_lengths_stays() -> None:
+    """`--no-nominal-period` of an import was not kept, and a fit divided again."""
+    recording = logged(UNEVEN, ON_TIME)
+    said = replace(recording, info=replace(recording.info, rows_said=True))
+    assert any(rows.nominal for rows in list_row_times(recording))
+    assert list_row_times(said) and not any(rows.nominal for rows in list_row_times(said))
+    both = [RowTimes(nominal=True).set_on(one).speed for one in (recording, said)]
+    assert not np.array_equal(both[0], recording.speed) and np.array_equal(both[1], recording.speed)
+    assert len(RowTimes(nominal=True).describe(recording, recording)) == 1
+    assert RowTimes(nominal=True).describe(said, said) == []
 
 
 @pytest.mark.slow
