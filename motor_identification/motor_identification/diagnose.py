@@ -19,6 +19,7 @@ from motor_identification.diagnosis.start import begin
 from motor_identification.diagnosis.verdict import conclude, find_nearest
 from motor_identification.estimation.request import Request
 from motor_identification.measurement.request_checks import check_effects
+from motor_identification.measurement.sanity_checks import find_undriven
 from motor_identification.progress import ProgressReporter, Stage, Stopped, TimeLimit
 from motor_identification.recording import Recording
 from motor_identification.sensor.description import note_sensors
@@ -59,6 +60,11 @@ def diagnose(
     reporter = ProgressReporter(progress or (lambda stage: None), limit.over, limit.keep)
     reporter.report("first fit", 0.0, "", float("nan"))
     first = begin(recordings, validation, request, reporter.stopped)
+    undriven = find_undriven(recordings)
+    if undriven is not None:
+        base = first.selection
+        found = conclude(base.model, base, recordings, validation, first.search, lambda: perf_counter() - begun)
+        return replace(found, verdict=Verdict.UNDECIDED, undriven=undriven, undetermined=(), suggested_experiment="")
     start, selected = select_as_timed(first, request, reporter, limit)
     found = conclude(
         start.selection.model,

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from plant import profiles, record
 from recorded import as_counts
+from swinging import noisy
 from tiers import keep_fast
 
 from motor_identification.diagnose import Request, Stage, Stopped, diagnose
@@ -42,6 +43,18 @@ def diagnosed(hidden: dict[str, float], known: tuple[str, ...] = ()) -> Diagnosi
     return diagnose(
         [made(hidden, profiles.compact(), 1)], [made(later, profiles.random(12.0, 10.0, 5), 2)], Request(known)
     )
+
+
+def test_of_a_motor_that_runs_on_at_0_volts_that_is_said_and_no_effect() -> None:
+    """A mark, 0 and 1, was taken for volts: "coast drive (coast_share = 0.9964 ± 0.0026) may be missing"."""
+    log = noisy(0.1)
+    marked = log.time >= 8.0
+    speed = np.where(marked, 100.0 - 40.0 * np.exp(-np.maximum(log.time - 8.0, 0.0) / 0.1), 60.0)
+    found = diagnose([replace(log, voltage=marked.astype(float), speed=speed + 0.01 * log.speed)])
+    assert found.verdict is Verdict.UNDECIDED and not found.findings and found.suggested_experiment == ""
+    text = summarize_diagnosis(found)
+    assert "the motor turns at 60" in text and "in the first 8 s, in which the voltage is 0" in text
+    assert "coast" not in text.lower() and text.endswith("No effect was looked for.")
 
 
 SINGLES = {

@@ -7,6 +7,7 @@ from math import isfinite
 
 from motor_identification.diagnosis.thresholds import EXPLAINED_GAP
 from motor_identification.discrepancy.structure import Structure
+from motor_identification.measurement.sanity_checks import Undriven
 from motor_identification.noise.error_model import Disturbance
 from motor_identification.recording import Floats
 from motor_identification.uncertainty.result import Fit
@@ -97,6 +98,7 @@ class Diagnosis:
     undetermined: tuple[str, ...] = ()  # effects that would explain more, of which this recording determines nothing
     nearest: Nearest | None = None  # where nothing explains the gap, but something takes away most of it
     gain_scatter: float = 0.0  # standard deviation of the runs' gains, as of a supply that differs; 0 where they agree
+    undriven: Undriven | None = None  # a motor that ran on at 0 V, of which no effect is looked for
     time_limit: float = 0.0  # [s] that ended the search before everything was tried; 0 where none did
 
     @property

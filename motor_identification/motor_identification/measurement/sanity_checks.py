@@ -1,4 +1,10 @@
-"""Refuse counts and speeds that no motor makes: counters that wrap or are reset, speeds in another unit."""
+"""Refuse counts and speeds that no motor makes: counters that wrap or are reset, speeds in another unit.
+
+And find a motor that runs on at 0 V: what was logged as its voltage is something else.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
@@ -16,7 +22,20 @@ CHUNK_SAMPLES = 20  # samples over which speed and count are compared
 CHUNK_COUNTS = 5  # counts in a chunk from which on it tells the unit
 IMPOSSIBLE_STAMPS = 0.6  # share of stamps that cannot be right, from which on all of them are those of another clock
 BACKWARDS = -0.5  # of the motion, weighted by voltage: braking and coasting leave more than half, swapped wires -0.9
+FEWEST_ROWS = 50  # before any drive, in which a motor that was just switched off would become slower
+GOES_ON = 0.9  # of its speed in the first half of those rows, that a motor which is driven has in the second
+FAST = 0.25  # of its largest speed, which noise of a motor that stands does not reach
+LONG_BEFORE = 0.1  # of a recording: its motor's time at 0 V, before any voltage, in which what coasts becomes slower
 SPEED_FACTOR = 3.0  # factor between speed and count beyond which they do not mean the same; 2π, 9.5 and 57.3 are beyond
+
+
+@dataclass(frozen=True)
+class Undriven:
+    """A motor that ran on at 0 V, before any voltage: what was logged does not drive it."""
+
+    uri: str
+    speed: float  # [rad/s] mean
+    duration: float  # [s]
 
 
 def find_count_jump(time: Floats, count: Integers, voltage: Floats) -> int | None:
@@ -100,6 +119,31 @@ def check_counts(recording: Recording) -> Recording:
             "the two channels of the encoder, or the motor's leads, and record again."
         )
     return recording
+
+
+def count_undriven_rows(voltage: Floats, speed: Floats) -> int:
+    """Count the first rows, at 0 V, in which a motor keeps its speed; 0 where it stands, or becomes slower.
+
+    Arrays of shape (K,), of any unit.
+    """
+    rows = int(np.argmax(voltage != 0.0)) if np.any(voltage) else 0
+    if rows < FEWEST_ROWS:
+        return 0
+    first, second = (abs(float(np.mean(half))) for half in np.array_split(speed[:rows], 2))
+    return rows if second > max(GOES_ON * first, FAST * float(np.max(np.abs(speed)))) else 0
+
+
+def find_undriven(recordings: Sequence[Recording]) -> Undriven | None:
+    """Find a recording that begins with a motor that keeps its speed at 0 V, for long.
+
+    One that was switched off just before coasts, and may take as long to become slower as a recording is that hardly
+    has any of that.
+    """
+    for recording in recordings:
+        rows = count_undriven_rows(recording.voltage, recording.speed)
+        if rows and recording.time[rows] > LONG_BEFORE * recording.duration:
+            return Undriven(recording.uri, float(np.mean(recording.speed[:rows])), float(recording.time[rows]))
+    return None
 
 
 def compare_motion_with_voltage(recording: Recording) -> float | None:

@@ -42,6 +42,11 @@ UNPREDICTED = (
 )
 UNMODELLED = "Check for a load, a supply or a sensor that was not recorded; the report shows the residual torque."
 
+UNDRIVEN = (
+    "{uri}: the motor turns at {speed:.3g} rad/s in the first {duration:.3g} s, in which the voltage is 0, and keeps "
+    "that speed: nothing drives a motor at 0 V. What was logged as its voltage may be a mark, the change of a voltage, "
+    "or another motor's: log what drives it. No effect was looked for."
+)
 SWEPT = "Something is missing that a sweep does not tell, in which what goes with the frequency goes with the time: {}."
 
 STRUCTURE_NAMES = {
@@ -58,6 +63,8 @@ STRUCTURE_NAMES = {
 
 def summarize_diagnosis(diagnosis: Diagnosis) -> str:
     """Say what was missing, what it explains and what is left, in one to three sentences, then what to do."""
+    if diagnosis.undriven is not None:
+        return UNDRIVEN.format(**vars(diagnosis.undriven))
     seen = SEEN if diagnosis.after.seen else ""
     told = (
         describe_gains(diagnosis),

@@ -16,6 +16,7 @@ from motor_identification.measurement.sanity_checks import (
     compare_motion_with_voltage,
     compare_speed_with_count,
     find_count_jump,
+    find_undriven,
 )
 from motor_identification.recording import Recording, check
 from motor_model.errors import RecordingError
@@ -23,6 +24,25 @@ from motor_model.parameters import PAPER_KA, PAPER_KV
 
 TRUTH = {"kv": PAPER_KV, "ka": PAPER_KA, "ks": 0.5}
 Spoil = Callable[[Recording], Recording]
+
+
+@pytest.mark.parametrize(
+    ("share", "coasting", "found"),
+    [(0.5, np.inf, True), (0.11, np.inf, True), (0.09, np.inf, False), (0.5, 4.0, False)],
+)
+def test_a_motor_that_keeps_its_speed_at_0_volts_is_not_driven_by_what_was_logged(
+    share: float, coasting: float, found: bool
+) -> None:
+    """For a tenth of the recording; one that was switched off becomes slower in that time."""
+    recording, _ = record(TRUTH, *profiles.step(10.0, 8.0), seed=0)
+    before = recording.time < share * recording.duration
+    speed = np.where(before, 60.0 * np.exp(-recording.time / (coasting * share * recording.duration)), 80.0)
+    one = replace(recording, voltage=np.where(before, 0.0, 5.0), speed=speed)
+    undriven = find_undriven([replace(one, voltage=np.full(len(one), 5.0)), one])
+    assert (undriven is not None) is found
+    if undriven is not None:
+        assert undriven.speed == pytest.approx(60.0)
+        assert undriven.duration == pytest.approx(share * one.duration, abs=2.0 * one.sample_period)
 
 
 def test_no_motion_of_a_motor_is_a_jump() -> None:

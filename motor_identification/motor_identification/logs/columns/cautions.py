@@ -7,13 +7,11 @@ from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.said import Pair
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import Kind
+from motor_identification.measurement.sanity_checks import count_undriven_rows
 
 ROUNDED = 0.01  # of full duty, by which rounding may go beyond it
-FEWEST_ROWS = 50  # before any drive, in which a motor that was just switched off would become slower
-GOES_ON = 0.9  # of its speed in the first half of those rows, that a motor which is driven has in the second
 NO_MEAN = 1e-9  # of the RMS: means that were subtracted leave 1e-16, and those that were measured are larger
 ONE_SIDED = 1e-3  # of its range, by which a drive goes further one way: one that is the same both ways has no mean
-FAST = 0.25  # of its largest speed, which noise of a motor that stands does not reach
 
 
 def caution_beyond_full(table: Table, pair: Pair, full: float | None, notes: Notes) -> None:
@@ -42,11 +40,8 @@ def caution_set_point(table: Table, pair: Pair, kind: Kind, notes: Notes) -> Non
 def caution_running_without_drive(table: Table, pair: Pair, notes: Notes) -> None:
     """Tell of a motor that keeps its speed in the first rows, in which its drive is 0: a mark, or a change of it."""
     drive, speed = table.numbers(pair.voltage), table.numbers(pair.motion)
-    rows = int(np.argmax(drive != 0.0)) if np.any(drive) else 0
-    if rows < FEWEST_ROWS:
-        return
-    first, second = (abs(float(np.mean(half))) for half in np.array_split(speed[:rows], 2))
-    if second > max(GOES_ON * first, FAST * float(np.max(np.abs(speed)))):
+    rows = count_undriven_rows(drive, speed)
+    if rows:
         speed_before = float(np.mean(speed[:rows]))
         notes.findings.append(
             f"Caution: {pair.motion} is {speed_before:.3g} in the first {rows} rows, where {pair.voltage} is 0: "

@@ -5,10 +5,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from motor_identification.logs.columns.cautions import FEWEST_ROWS, caution_no_means, caution_running_without_drive
+from motor_identification.logs.columns.cautions import caution_no_means, caution_running_without_drive
 from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.said import Pair
 from motor_identification.logs.csv.table import Table
+from motor_identification.measurement.sanity_checks import FEWEST_ROWS
 
 TIME = 0.01 * np.arange(200)
 
