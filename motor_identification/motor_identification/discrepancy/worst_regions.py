@@ -11,6 +11,7 @@ from motor_identification.validation.held_out import HeldOut
 
 LEAST_CONTRAST = 0.05  # [nat] of contrast below which no region is worse than the rest
 SECOND_CONTRAST = 0.1  # [nat] that a second condition must add
+MOMENT, LEAST_VALUES = 1.0 / 60.0, 3  # of the time, which a region has at least, or values off by more than the sensor
 RECORDING_PENALTY = 0.5  # [nat] by which "in this recording" has to be better than what a motor does
 THRESHOLD_SHARES = (
     0.01,
@@ -72,11 +73,17 @@ def find_worst_regions(held: HeldOut, share: float, count: int = 3) -> tuple[Reg
 def _worst_of(
     held: HeldOut, share: float, seen: OperatingConditions, squares: Floats, conditions: list[_Condition], open_: Bools
 ) -> Region:
-    """The condition, or two on different axes, whose share of the excess is most above its share of the time."""
+    """The condition, or two on different axes, whose share of the excess is most above its share of the time.
+
+    A value or two in a moment are no condition: a count more, over a very short row, held 42 % of an excess.
+    """
     inside = np.array([one.inside & open_ for one in conditions], dtype=np.float64)
     excess = (inside * squares) @ inside.T / max(float(squares @ open_), 1e-300)
     time = (inside * held.weight) @ inside.T / max(float(held.weight @ open_), 1e-300)
-    contrast = measure_contrast(np.clip(excess, 0.0, 1.0), time)
+    beyond = (inside * (squares > 0.0)) @ inside.T
+    contrast = np.where(
+        (time >= MOMENT) | (beyond >= LEAST_VALUES), measure_contrast(np.clip(excess, 0.0, 1.0), time), 0.0
+    )
     axes = np.array([one.axis for one in conditions])
     of_recording = (axes[:, None] == "recording") | (axes[None, :] == "recording")
     contrast = np.where(of_recording, contrast - RECORDING_PENALTY, contrast)

@@ -159,7 +159,8 @@ def _describe_untestable(diagnosis: Diagnosis) -> str:
 def _unexplained(diagnosis: Diagnosis) -> str:
     worst = capitalize(describe_error(diagnosis.after, diagnosis.slot_share))
     torque = describe_torque(estimate_missing_torque(diagnosis.after))
-    rest = " ".join(part for part in (_describe_structure(diagnosis), f"{worst}.", torque, UNMODELLED) if part)
+    left = describe_few_values(diagnosis) or _describe_structure(diagnosis)  # of few values, what curves find is those
+    rest = " ".join(part for part in (left, f"{worst}.", torque, UNMODELLED) if part)
     if diagnosis.findings:
         found = f"{_describe_findings(diagnosis)} {capitalize(_describe_gap_reduction(diagnosis))}."
         return f"{found} Another effect, which is not in the table, is missing. {rest}"

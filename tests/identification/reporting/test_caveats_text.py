@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from motor_identification.diagnosis.result import Diagnosis, Verdict
+from motor_identification.discrepancy.structure import Structure
 from motor_identification.measurement.intervals import index_intervals
 from motor_identification.noise.error_model import Disturbance
 from motor_identification.reporting.diagnosis_text import summarize_diagnosis
@@ -98,7 +99,7 @@ def test_a_torque_that_leaves_nothing_is_not_what_is_left(
     assert ("The rest is random" in text) is not none
 
 
-@pytest.mark.parametrize("verdict", [Verdict.EXPLAINED, Verdict.NOTHING_MISSING, Verdict.UNDECIDED])
+@pytest.mark.parametrize("verdict", list(Verdict))
 @pytest.mark.parametrize(
     ("values", "off", "gap", "said"),
     [(2, 30.0, 5.0, True), (2, 30.0, 1.0, False), (2, 3.0, 5.0, False), (6, 30.0, 5.0, False)],
@@ -115,9 +116,11 @@ def test_a_gap_in_few_values_is_said_to_be_there(
     one = variants[verdict]
     held = replace(one.after, intervals=(data,), angles=(9.0 * np.arange(101.0),), instants=(), responses=())
     held = replace(held, recordings=held.recordings[:1], scored=(np.ones(100, dtype=bool),))
-    text = summarize_diagnosis(replace(one, after=held, gap_after=gap * one.noise_floor))
+    left = (Structure("spectrum", 0.41, 90.0),)  # what curves find of few values is those
+    text = summarize_diagnosis(replace(one, after=held, gap_after=gap * one.noise_floor, structure=left))
     assert ("Most of that gap is in 2 of 100 values (11 s and 12 s): 1 rad/s is left without" in text) is said
     assert ("Most of that gap" in text) is said
+    assert ("can be predicted from the time" in text) is (verdict is Verdict.UNEXPLAINED and not said)
 
 
 def test_one_value_that_is_off_is_named_alone_and_not_the_next_worst(variants: dict[Verdict, Diagnosis]) -> None:
