@@ -187,6 +187,23 @@ def test_a_slot_that_passes_many_times_in_a_row_is_an_instant(monkeypatch: pytes
     assert found(0.99, 100.0) == OTHERS[0] and found(0.99, 9.0) is None and found(1.01, 9.0) is None
     told = found(1.01, 100.0)
     assert told is not None and told.slot == 1.01 * least
+    # Whole ticks prove it: values at turns are of no instant, and "of the rest 76 % can be predicted from the speed".
+    monkeypatch.setattr(speed_timing, "list_tick_slots", lambda recordings: (0.5 * least, least))
+    told = found(0.5, 100.0)
+    assert told is not None and told.slot == 0.5 * least
+
+
+@pytest.mark.parametrize(("behind", "taken"), [(4.9, 0.2), (5.1, 0.1)])
+def test_of_ticks_slots_that_are_as_likely_the_longest_is_taken(
+    behind: float, taken: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """By half of one values after a turn, of a time that began before it, counted as new: an inductance was lost."""
+    gains = {0.1: 41.5, 0.2: 41.5 - behind, 0.4: -80.0}
+    monkeypatch.setattr(pulse_slot, "list_tick_slots", lambda recordings: tuple(gains))
+    monkeypatch.setattr(
+        pulse_slot, "judge_slot", lambda shaper, timing, *rest: SlotGain(timing.slot, gains[timing.slot], 350)
+    )
+    assert find_likeliest_slot(shaper_of(check(noisy(0.05))), OTHERS[0], ASSUMED).slot == taken
 
 
 @pytest.mark.usefixtures("without_ticks")
