@@ -9,7 +9,7 @@ from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.detectability import find_undetectable
 from motor_identification.diagnosis.effect_test import is_over_too_soon, list_candidates, sort_by_table
-from motor_identification.diagnosis.evidence.command_evidence import find_ignored, goes_with_sweep
+from motor_identification.diagnosis.evidence.command_evidence import find_falling, find_ignored, goes_with_sweep
 from motor_identification.diagnosis.evidence.line_evidence import list_unseen_disc
 from motor_identification.diagnosis.evidence.missed_edges import count_missed_edges
 from motor_identification.diagnosis.result import Alternative, Diagnosis, Finding, Nearest, Verdict, list_vague
@@ -232,7 +232,7 @@ def decide(
         return Verdict.UNDECIDED, ""  # no experiment tells more before its columns belong together
     if complete and findings and last.above_floor and last.held.gap > thresholds.MOMENTS_GAP * last.noise_floor:
         return Verdict.UNDECIDED, ""  # few moments leave it, of which no torque tells
-    if complete and last.is_tossed:
+    if complete and (last.is_tossed or find_falling(last.held) is not None):
         return Verdict.UNDECIDED, ""
     if vague := list_vague(findings):
         return Verdict.UNDECIDED, EFFECT_BY_NAME[vague[0].effect].shown_by

@@ -6,6 +6,7 @@ from itertools import pairwise
 import numpy as np
 
 from motor_identification.diagnosis.candidate_model import tosses
+from motor_identification.diagnosis.evidence.command_evidence import find_falling
 from motor_identification.diagnosis.result import Diagnosis, Finding
 from motor_identification.diagnosis.thresholds import EXPLAINED_GAP, WILD_TIME
 from motor_identification.noise.error_model import Disturbance
@@ -56,6 +57,10 @@ GAINS_OR_CURVE = (
     "run at the voltage of another."
 )
 FEW = "Most of that gap is in {} of {:,} values ({}): {:.3g} rad/s is left without. Look at stamps and values there."
+FALLING = (
+    "The speed falls where the voltage rises, each time: {:.3g} rad/s at {:.3g} V, {:.3g} rad/s at {:.3g} V. No motor "
+    "does so: a sensor that misses counts at speed, a supply that gives way, or a load that came each time may."
+)
 MOST, NAMED = 0.9, 2  # of a gap's square that is most of it; instants that are named
 MIDDLE = (0.1, 0.9)  # shares of a run's driven samples between which its voltages are said to lie
 NEAR = 0.02  # of the largest voltage: below it nothing drives, and voltages that differ by no more are the same
@@ -101,7 +106,7 @@ def describe_likes(diagnosis: Diagnosis) -> str:
 def describe_disturbance(diagnosis: Diagnosis) -> str:
     """Say how strong the random torque is that nothing predicts, with standard errors; empty where there is none."""
     found = diagnosis.disturbance
-    if found is None:
+    if found is None or find_falling(diagnosis.after) is not None:
         return ""
     strength = format_measured(found.rms_voltage, found.rms_error, "V RMS")
     largest = max((float(np.max(np.abs(one.voltage))) for one in diagnosis.after.recordings), default=0.0)
@@ -134,6 +139,12 @@ def _describe_stop(held: HeldOut, largest: float) -> str:
         driven += float(data.duration[large].sum())
         stood += float(data.duration[large & slow & np.logical_or.accumulate(~slow)].sum())
     return STOOD.format(stood) if stood > STOOD_SHARE * driven else ""
+
+
+def describe_falling(diagnosis: Diagnosis) -> str:
+    """Say that a speed falls where the voltage rises, and what may be the cause; empty where it does not."""
+    found = find_falling(diagnosis.after)
+    return "" if found is None else FALLING.format(found.speed, found.voltage, found.slower, found.higher)
 
 
 def describe_few_values(diagnosis: Diagnosis) -> str:

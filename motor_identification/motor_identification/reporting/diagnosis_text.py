@@ -4,13 +4,19 @@ from collections.abc import Sequence
 from math import inf
 
 from motor_identification.diagnosis.candidate_model import find_lasting_interval
-from motor_identification.diagnosis.evidence.command_evidence import Ignored, find_ignored, goes_with_sweep
+from motor_identification.diagnosis.evidence.command_evidence import (
+    Ignored,
+    find_falling,
+    find_ignored,
+    goes_with_sweep,
+)
 from motor_identification.diagnosis.result import Diagnosis, Finding, Verdict, list_vague
 from motor_identification.diagnosis.thresholds import EXPLAINED_GAP, SURE_SIZE
 from motor_identification.discrepancy.missing_torque import describe_torque, estimate_missing_torque
 from motor_identification.discrepancy.region_text import describe_error
 from motor_identification.reporting.caveats_text import (
     describe_disturbance,
+    describe_falling,
     describe_few_values,
     describe_gains,
     describe_likes,
@@ -73,7 +79,7 @@ def summarize_diagnosis(diagnosis: Diagnosis) -> str:
         seen,
         _next_step(diagnosis),
     )
-    parts = (_SUMMARIES[diagnosis.verdict](diagnosis), *told)
+    parts = (describe_falling(diagnosis), _SUMMARIES[diagnosis.verdict](diagnosis), *told)
     return " ".join(part for part in parts if part)
 
 
@@ -186,7 +192,8 @@ def _describe_findings(diagnosis: Diagnosis) -> str:
     clear = [one for one in diagnosis.findings if not (one.ambiguous_with or one.sensor_may_lag)]
     vague = list_vague(clear)
     sized = [one for one in clear if one not in vague]
-    sure = diagnosis.after.confirms and not (diagnosis.is_of_no_motor or diagnosis.time_limit)
+    unsure = diagnosis.is_of_no_motor or diagnosis.time_limit or find_falling(diagnosis.after) is not None
+    sure = diagnosis.after.confirms and not unsure
     open_ = bool(diagnosis.undetermined) or goes_with_sweep(diagnosis.structure, diagnosis.after)
     sure = sure and not (open_ and diagnosis.leaves_more)  # beside that they may stand in
     parts = [f"{_describe_found(sized, sure)}."] if sized else []

@@ -13,12 +13,17 @@ from motor_identification.diagnosis.candidate_model import find_lasting_interval
 from motor_identification.discrepancy.free_curves import BY_TIME
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.measurement.command_swing import is_sweep
+from motor_identification.recording import Floats
 from motor_identification.validation.held_out import HeldOut
 
 # Of the variance of what lasts in the speed that a model has to explain, if the command varies by as much of its
 # largest value (RMS) and what is left is as much of the speed (RMS). Measured: 0.5 and more where a torque of 0.3 V
 # shook a motor of 12 V; below 0 of a program that logged another signal as its command.
 LEAST_EXPLAINED, VARIES, MATTERS = 0.25, 0.1, 0.1
+# Levels of the largest voltage, and visits of each, by which a speed falls, and of its most by how much, where a model
+# falls by less than that share of it. Measured: by 0.25 from half of the duty on, up and down three times, of an
+# encoder whose counts a program missed.
+LEVELS, FEWEST_VISITS, LEAST_FALL, SHARED = 8, 3, 0.1, 0.5
 
 
 @dataclass(frozen=True)
@@ -27,6 +32,44 @@ class Ignored:
 
     gap: float  # [rad/s] what the model leaves of what lasts
     variation: float  # [rad/s] standard deviation of the measured speeds that last
+
+
+@dataclass(frozen=True)
+class Falling:
+    """A motion that is slower, each time, where the voltage is higher."""
+
+    voltage: float  # [V] of the fastest level
+    speed: float  # [rad/s] there, along the voltage
+    higher: float  # [V]
+    slower: float  # [rad/s] there
+
+
+def find_falling(held: HeldOut) -> Falling | None:
+    """Find whether a motion is slower at a higher voltage at every visit there than at every visit below.
+
+    Not where the model's motion is, too: a motor that had no time to follow, or a load that came.
+    """
+    largest = max((float(np.max(np.abs(one.voltage))) for one in held.recordings), default=0.0)
+    if largest == 0.0:
+        return None
+    visits: list[list[Floats]] = [[] for _ in range(LEVELS)]
+    for recording, data, left in zip(held.recordings, held.intervals, held.residuals_of, strict=False):
+        middle = 0.5 * (data.time[data.first] + data.time[data.last])
+        voltage = recording.voltage[np.maximum(np.searchsorted(recording.time, middle, "right") - 1, 0)]
+        level = np.minimum((LEVELS * np.abs(voltage) / largest).astype(int), LEVELS - 1)
+        each = np.sign(voltage) * np.stack([data.speed, data.speed + left, voltage])
+        for part in np.split(np.arange(len(level)), np.flatnonzero(np.diff(level)) + 1):
+            if len(part):
+                visits[level[part[0]]].append(each[:, part] @ data.duration[part] / data.duration[part].sum())
+    seen = [np.stack(some, axis=1) for some in visits if len(some) >= FEWEST_VISITS]
+    if not seen:
+        return None
+    fastest = int(np.argmax([some[0].mean() for some in seen]))
+    peak, low = seen[fastest], min(seen[fastest:], key=lambda some: float(some[0].mean()))
+    (speed, simulated, at), (slower, follows, higher) = (some.mean(axis=1) for some in (peak, low))
+    fell = speed - slower
+    apart = low[0].max() < peak[0].min() and fell > LEAST_FALL * speed
+    return Falling(at, speed, higher, slower) if apart and simulated - follows < SHARED * fell else None
 
 
 def find_ignored(held: HeldOut) -> Ignored | None:

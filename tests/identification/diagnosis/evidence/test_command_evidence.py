@@ -10,10 +10,12 @@ from swinging import noisy
 
 from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis.evidence import command_evidence
-from motor_identification.diagnosis.evidence.command_evidence import find_ignored, goes_with_sweep
+from motor_identification.diagnosis.evidence.command_evidence import find_falling, find_ignored, goes_with_sweep
 from motor_identification.diagnosis.result import Diagnosis, Verdict
 from motor_identification.discrepancy.structure import CERTAIN, Structure
 from motor_identification.identify import Request
+from motor_identification.measurement.intervals import index_intervals
+from motor_identification.noise.error_model import Disturbance
 from motor_identification.recording import Recording, check
 from motor_identification.reporting.diagnosis_text import summarize_diagnosis
 
@@ -57,6 +59,56 @@ def test_what_goes_with_the_time_of_a_sweep_goes_with_its_frequency(left: list[S
     assert goes_with_sweep(left, held) is expected
     for others in ((swept, even), (even,), ()):
         assert not goes_with_sweep(left, replace(held, recordings=others))
+
+
+def rising_and_falling(times: int) -> Recording:
+    """Under 0 to 10 V and back, so many times."""
+    logged = noisy(0.5)
+    turns = np.linspace(0.0, times, len(logged), endpoint=False)
+    return replace(logged, voltage=10.0 * (1.0 - np.abs(2.0 * (turns % 1.0) - 1.0)))
+
+
+@pytest.mark.parametrize(
+    ("times", "lost", "once", "followed", "found"),
+    [
+        (3, 15.0, 0.0, 0.0, True),
+        (3, 15.0, 0.0, 0.4, True),
+        (3, 15.0, 0.0, 0.6, False),  # the model does so, too: it had no time to follow
+        (1, 15.0, 0.0, 0.0, False),  # up and down once may be a load that came and went
+        (3, 3.0, 0.0, 0.0, False),
+        (3, 15.0, 150.0, 0.0, False),  # in one of them it was slower everywhere
+    ],
+)
+def test_a_speed_that_falls_where_the_voltage_rises(
+    times: int, lost: float, once: float, followed: float, found: bool
+) -> None:
+    """Lost speed [rad/s] a volt from 5 V on, as where a program misses counts: it was "a voltage limit"."""
+    one = rising_and_falling(times)
+    begin, end = one.time[:-1], one.time[1:]
+    volts = one.voltage[:-1]
+    fell = lost * np.maximum(volts - 5.0, 0.0)
+    speed = 60.0 * np.minimum(volts, 5.0) - fell - once * (end > 0.7 * one.duration)
+    follows = 60.0 * np.minimum(volts, 5.0) - followed * fell
+    data = index_intervals(begin, end, speed, np.full(len(speed), 1e-3))
+    angle = np.append(0.0, np.cumsum(follows * (end - begin)))
+    held = replace(stub_held(5.0), recordings=(one,), intervals=(data,), angles=(angle,))
+    falling = find_falling(held)
+    assert (falling is not None) is found
+    if falling is not None:
+        assert 5.0 < falling.voltage < 6.3 < 8.7 < falling.higher < 10.0
+        assert falling.slower == pytest.approx(300.0 - lost * (falling.higher - 5.0), rel=0.01)
+
+
+def test_of_such_a_speed_that_is_said_and_nothing_is_explained() -> None:
+    one = following()
+    (data,), logged = one.after.intervals, rising_and_falling(3)
+    middle = 0.5 * (data.time[data.first] + data.time[data.last])
+    volts = np.interp(middle, logged.time, logged.voltage)
+    speed = 60.0 * np.minimum(volts, 5.0) - 15.0 * np.maximum(volts - 5.0, 0.0)
+    held = replace(one.after, recordings=(logged,), intervals=(replace(data, speed=speed),))
+    text = summarize_diagnosis(replace(one, after=held, disturbance=Disturbance(0.4, 0.1, 0.3, 0.1)))
+    assert text.startswith("The speed falls where the voltage rises, each time: ")
+    assert "a sensor that misses counts at speed" in text and "The rest is random" not in text
 
 
 @pytest.mark.slow
