@@ -204,6 +204,10 @@ def test_a_fit_and_a_diagnosis_use_what_was_found() -> None:
         (1.3, -9.9, 0.09, True),
         (1.3, -9.9, 0.11, False),  # as far as its standard error goes
         (1.3, -10.1, 0.0, False),  # the log tells
+        (1.6, -19.9, 0.05, True),  # hardly, of quite another one
+        (1.4, -19.9, 0.01, False),
+        (1.6, -19.9, 0.07, False),
+        (1.6, -20.1, 0.05, False),
     ],
 )
 def test_what_inertia_would_be_by_the_other_voltages_is_said_where_nothing_tells(
@@ -216,7 +220,8 @@ def test_what_inertia_would_be_by_the_other_voltages_is_said_where_nothing_tells
     readings = iter([_Reading(estimate, NONE, 0.0), _Reading(cast(Estimate, other), NONE, gain)])
     monkeypatch.setattr(module, "_fit_beside_torque", lambda one: next(readings))
     notes = describe_untold(estimate, {"ka": error * ka})
-    assert bool(notes) is said and all(("this log does not tell" in note) is (gain <= 10.0) for note in notes)
+    assert bool(notes) is said and all(("this log does not tell" in note) is (-10.0 <= gain <= 10.0) for note in notes)
+    assert all(("this log hardly tells" in note) is (gain < -10.0) for note in notes)
 
 
 def test_a_quick_motor_on_a_coarse_encoder_has_two_inertias_by_when_its_voltages_hold() -> None:
@@ -232,15 +237,15 @@ def test_a_quick_motor_on_a_coarse_encoder_has_two_inertias_by_when_its_voltages
     assert list_untold(assume(as_counts(recording), False)) == [] and list_untold(counted()) == []
 
 
-@pytest.mark.parametrize(("digits", "said"), [(9, True), (2, True), (0, False)])
-def test_a_quick_motor_has_two_inertias_by_when_its_speeds_were_made(digits: int, said: bool) -> None:
-    """A converter's steps are as fine as no encoder's; whole counts of 60 a turn are those of a row."""
+@pytest.mark.parametrize(("digits", "counts", "said"), [(9, 0, True), (2, 0, True), (0, 60, False), (0, 3000, True)])
+def test_a_quick_motor_has_two_inertias_by_when_its_speeds_were_made(digits: int, counts: int, said: bool) -> None:
+    """A converter's steps are as fine as no encoder's, or far finer than noise; 60 counts a turn are those of a row."""
     drive, fast = profiles.ramps(6.0, 2.0), {"kv": 0.05, "ka": 0.001}
     recording, truth = record(fast, *drive, seed=0, edges=960, sample_rate=1.0 / ROW, single_channel=False)
     noisy = truth.speed + 1.0 * np.random.default_rng(0).standard_normal(len(truth.speed))
     logged = replace(without_count(as_speed(recording)), speed=np.round(noisy, digits) if digits else noisy)
     if not digits:
-        step = tau / 60.0 / ROW
+        step = tau / counts / ROW
         logged = replace(logged, speed=step * np.round(noisy / step))
     notes = list_untold(assume(logged))
     assert bool(notes) is said
