@@ -1,7 +1,7 @@
 """Summarise an identification: a motor, how sure each of its numbers is, and all that limits them."""
 
 from collections.abc import Callable
-from math import ceil, isnan, nan
+from math import ceil, isnan, nan, sqrt
 
 import numpy as np
 
@@ -20,8 +20,17 @@ from motor_identification.uncertainty.standard_errors import estimate_uncertaint
 from motor_model.effect import ParameterSpec
 from motor_model.effects import EFFECT_BY_NAME, SPEC_BY_NAME, VISCOUS_SHARE
 
+WINDING = "electrical_time_constant"
 ON_BOUND = 1e-4  # of the box: how near its edge a parameter counts as on it
 SPLIT = "Of kv, {:.1f} ± {:.1f} % is viscous friction and the rest back-EMF, which a motor with {} tells apart."
+# Of kv, the viscous friction by which it is said what a winding's motor would be; and of ka and its standard errors, by
+# how much that has to matter. Measured: ka 18 % and τ_e 15 % off, 517 and 120 standard errors, where 30 % were viscous.
+VISCOUS_PART, MATTERS, SURE_ERRORS = 0.1, 0.01, 1.0
+BESIDE_WINDING = (
+    "A winding is slow to answer back-EMF and not viscous friction, and speed alone does not tell which of them kv is: "
+    "ka and electrical_time_constant are those without viscous friction. If {:.0f} % of kv were, they would be {:.3g} "
+    "V·s²/rad and {:.3g} s."
+)
 NO_VARIANCE = 1e-18  # of the largest speed squared: a measured speed that does not vary, but for rounding
 
 
@@ -49,6 +58,7 @@ def summarise_fit(
     alike = {effect: rivals for effect, rivals in alike.items() if effect not in absent}
     errors = unknowns.value_errors(theta, sure.errors)
     cost, untold = fit.estimate.cost, describe_untold(fit.estimate, errors)
+    own_notes = (*_list_own_notes(fit), *_describe_split(unknowns, theta, errors), *_describe_winding(fit, errors))
     return Fit(
         parameters=fit.estimate.parameters,
         standard_errors={name: nan if name in noise else error for name, error in errors.items()},
@@ -67,7 +77,7 @@ def summarise_fit(
         search=search,
         evaluations=fit.estimate.simulations,
         uris=tuple(recording.uri for recording in fit.problem.recordings),
-        notes=(*_list_own_notes(fit), *_describe_split(unknowns, theta, errors), *untold, *notes),
+        notes=(*own_notes, *untold, *notes),
         duration=elapsed(),
     )
 
@@ -93,6 +103,22 @@ def _describe_split(unknowns: Unknowns, theta: Floats, errors: dict[str, float])
     by = " and ".join(name for name in unknowns.effects if EFFECT_BY_NAME[name].splits_kv)
     error = ceil(1000.0 * errors[VISCOUS_SHARE.name]) / 10.0  # nobody needs it to more than a tenth of a percent
     return [SPLIT.format(100.0 * share, error, by)]
+
+
+def _describe_winding(fit: WhitenedFit, errors: dict[str, float]) -> list[str]:
+    """One sentence where viscous friction in kv, of which nothing is known, would make ka and τ_e other ones.
+
+    Speed answers voltage with the poles of ka·τ_e·s² + (ka + viscous·τ_e)·s + kv, in which three are two.
+    """
+    values, split = fit.estimate.parameters.values, fit.problem.unknowns.splits_kv
+    if WINDING not in values or split or isnan(errors[WINDING]) or not values[WINDING] > 0.0:
+        return []
+    kv, ka, slow = values["kv"], values["ka"], values[WINDING]
+    root = 1.0 - 4.0 * VISCOUS_PART * kv * slow / ka
+    less = 0.5 * ka * (1.0 + sqrt(root)) if root > 0.0 else 0.5 * ka
+    if not ka - less > max(MATTERS * ka, SURE_ERRORS * errors["ka"]):
+        return []
+    return [BESIDE_WINDING.format(100.0 * VISCOUS_PART, less, slow * ka / less)]
 
 
 def _own(effect: str) -> tuple[ParameterSpec, ...]:
