@@ -19,6 +19,7 @@ from motor_identification.diagnosis.fits.starts import list_starts, start_with
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.kv_split import can_split_kv, fit_split_kv, is_split_of_motor
 from motor_identification.estimation.least_squares import fit_speeds
+from motor_identification.estimation.speed_noise import learn_noise, measure_noise
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.noise.gain_learning import learn_errors_of_runs
 from motor_identification.noise.likelihood import estimate_noise, log_likelihood
@@ -32,9 +33,11 @@ END_ITERATIONS, END_TOLERANCE = 60, 1e-12
 def validate_model(hold_out: HoldOut, estimate: Estimate, like: Model | None = None) -> Model:
     """Validate an estimate on held-out data, under the noise that it leaves in its training data.
 
+    White noise that was assumed of speeds is at most what it leaves there; its floor, at most what it leaves in all.
     like: a similar model; where that is judged beside a random torque, so is this one.
     """
-    held = hold_out.validate(estimate)
+    estimate, share = learn_noise(estimate), measure_noise(estimate)
+    held = hold_out.validate(estimate).with_noise(share)
     rows = list(zip(estimate.problem.intervals, estimate.increments, strict=True))
     noise = estimate_noise(rows)
     each = tuple(log_likelihood(data, increments, noise) for data, increments in rows)
@@ -43,7 +46,7 @@ def validate_model(hold_out: HoldOut, estimate: Estimate, like: Model | None = N
         score = Score(training - compute_price(estimate), by_recording=each)
     else:
         score = Score(held.log_likelihood(noise), training, each)
-    model = Model(estimate, held, noise, score)
+    model = Model(estimate, held.with_noise(max(share, held.measure_noise())), noise, score)
     if like is None or not like.beside_torque:
         return model
     return judge_beside_torque(model, hold_out, like.learned, thresholds.CANDIDATE_EVALUATIONS)

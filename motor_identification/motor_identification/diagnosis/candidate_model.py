@@ -122,7 +122,12 @@ class Model:
 
     @cached_property
     def quiet(self) -> bool:
-        """Whether it leaves nothing that lasts, so that no further effect could be relevant."""
+        """Whether it leaves nothing that lasts, so that no further effect could be relevant.
+
+        Not where its floor is what it leaves itself: then any model is at it.
+        """
+        if min(data.learned for data in self.held.intervals) < thresholds.LEARNED_NOISE:
+            return False
         return self.lasting.gap < thresholds.QUIET_GAP * self.lasting.floor(self.noise.share)
 
     @property

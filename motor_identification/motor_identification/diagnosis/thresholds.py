@@ -20,6 +20,9 @@ LASTING_PARTS = 15
 # Times the floor in lasting intervals; below it no effect is tried. Measured: complete models leave 0.84 to 1.5 (few
 # intervals: the ratio is unsure), so that this only spares time where the ratio is low by chance.
 QUIET_GAP = 1.05
+# Of the white noise that was assumed of speeds: a model that leaves less has shown that it was too high, and its floor
+# is what it leaves itself; below it no floor ends the search. As far below as EXPLAINED_GAP is above.
+LEARNED_NOISE = 1.0 / EXPLAINED_GAP
 
 # Times the floor in lasting intervals; above it findings have to hold beside a random torque, however coarse the sensor
 # is from sample to sample. Complete models, as above, leave up to 1.5.

@@ -13,6 +13,7 @@ import numpy as np
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_residuals
 from motor_identification.estimation.problem import Problem
+from motor_identification.estimation.speed_noise import learn_noise
 from motor_identification.noise.encoder import Encoder, learn_encoder
 from motor_identification.recording import Bools, Floats
 from motor_model.effects import EFFECT_BY_NAME
@@ -142,6 +143,7 @@ def make_whitened(estimate: Estimate) -> WhitenedFit:
 def fit_whitened(estimate: Estimate) -> WhitenedFit:
     """Learn the encoder from what an estimate leaves, fit white residuals, and again, without outliers."""
     for last in (False, False, True):
+        estimate = learn_noise(estimate)
         residuals = make_whitened(estimate).residuals
         fit = WhitenedFit(fit_residuals(estimate, residuals), residuals)
         estimate, far = fit.estimate, fit.find_outliers()

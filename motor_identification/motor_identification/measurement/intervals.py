@@ -4,7 +4,7 @@ Comparing angle *increments* keeps an early error from growing through the whole
 itself is compared. `build_intervals.py` makes them of every kind of recording, and `edit_intervals.py` others of them.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import sqrt, tau
 
@@ -46,11 +46,29 @@ class Intervals:
     noise: float = 0.0  # [rad] what is known of a logged speed's noise, at either end of its window
     missed: MissedShare | None = None  # of all edges, where so many are that those in between do not count
     rows: int = 1  # of the recording that were joined to one: of a long log, far quicker ones than the motion
+    learned: float = 1.0  # of a logged speed's assumed noise, what a fit has shown it to be at most: `blur` is that
 
     @property
     def unit(self) -> float:
         """[rad] what a sensor's unknown errors are a share of: a slot, or a logged speed's noise; 0 where neither."""
         return self.noise if self.window > 0.0 else self.slot
+
+    @property
+    def has_assumed_noise(self) -> bool:
+        """Whether these are logged speeds with white noise, as their values seemed to have: an upper bound."""
+        return self.independent and self.window > 0.0 and self.noise > 0.0
+
+    @property
+    def assumed_blur(self) -> Floats:
+        """[rad] `blur` before anything was learned of it, shape (I,)."""
+        return np.asarray(self.blur / self.learned)
+
+    def with_noise(self, share: float) -> "Intervals":
+        """The same speeds, if noise was assumed of them with a share of that; standstills are as sharp as they were."""
+        if not self.has_assumed_noise or share == self.learned:
+            return self
+        blur = np.where(self.slack > 0.0, self.blur, self.assumed_blur * share)
+        return replace(self, blur=blur, learned=share)
 
     @cached_property
     def duration(self) -> Floats:

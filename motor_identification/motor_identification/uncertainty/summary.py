@@ -21,6 +21,8 @@ from motor_model.effect import ParameterSpec
 from motor_model.effects import EFFECT_BY_NAME, SPEC_BY_NAME, VISCOUS_SHARE
 
 WINDING = "electrical_time_constant"
+MUCH_LESS = 0.75  # of the noise that was assumed of speeds: what is left is no more, and it is said
+LEFT = "The fit leaves {:.2g} of the noise that is assumed of the speeds: they have no more, and that is taken."
 ON_BOUND = 1e-4  # of the box: how near its edge a parameter counts as on it
 SPLIT = "Of kv, {:.1f} ± {:.1f} % is viscous friction and the rest back-EMF, which a motor with {} tells apart."
 # Of kv, the viscous friction by which it is said what a winding's motor would be; and of ka and its standard errors, by
@@ -92,6 +94,8 @@ def compute_r_squared(problem: Problem, cost: float) -> float:
 def _list_own_notes(fit: WhitenedFit) -> list[str]:
     """List what the recordings say of themselves, and where they disagree."""
     notes = [note for recording in fit.problem.recordings for note in recording.notes]
+    learned = min(data.learned for data in fit.problem.intervals)
+    notes += [LEFT.format(learned)] if learned < MUCH_LESS else []
     return notes + describe_worst_dissent(compare_recordings(fit))
 
 

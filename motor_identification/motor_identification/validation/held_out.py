@@ -109,6 +109,18 @@ class HeldOut:
         everything = tuple(np.ones(len(data.first), dtype=bool) for data in longer)
         return replace(self, intervals=longer, angles=angles, scored=everything, instants=(), responses=())
 
+    def with_noise(self, share: float) -> "HeldOut":
+        """The same motion, its speeds with a share of the white noise that was assumed of them."""
+        return replace(self, intervals=tuple(data.with_noise(share) for data in self.intervals))
+
+    def measure_noise(self) -> float:
+        """Measure what is left of speeds that count, as a share of the white noise assumed of them; 1 at most."""
+        rows = zip(self.intervals, self.increments, self.scored, strict=True)
+        noisy = [(data, part, marks & (data.slack == 0.0)) for data, part, marks in rows if data.has_assumed_noise]
+        squares = sum(float(np.sum((part / data.assumed_blur)[marks] ** 2)) / 2.0 for data, part, marks in noisy)
+        count = sum(int(np.count_nonzero(marks)) for _data, _part, marks in noisy)
+        return min(sqrt(squares / count), 1.0) if count else 1.0
+
     def has_intervals_of(self, other: "HeldOut") -> bool:
         """Whether another model is judged by the same intervals; not where directions of some were read anew."""
         return [len(part) for part in self.scored] == [len(part) for part in other.scored]

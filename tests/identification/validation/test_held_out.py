@@ -76,3 +76,19 @@ def test_a_calm_gap_is_that_of_all_but_the_worst_of_the_time(wild: float) -> Non
     bumpy = replace(steady, angles=(angle + np.cumsum(bumps),))
     assert bumpy.gap > 4.0 and bumpy.find_calm_gap(wild) == pytest.approx(2.0)
     assert 2.5 < bumpy.find_calm_gap(0.05) < bumpy.find_calm_gap(0.0) == pytest.approx(bumpy.gap, rel=0.05)
+
+
+def test_speeds_whose_noise_was_assumed_have_a_share_of_it_and_no_more_than_is_left() -> None:
+    one = held(ks=0.4)
+    noise, more = 2.0 * one.gap, {"independent": True, "window": 1.0, "noise": 1.0}
+    speeds = tuple(
+        replace(data, **more, slack=0.0 * data.slack, blur=noise * data.duration / np.sqrt(2.0))
+        for data in one.intervals
+    )
+    logged = replace(one, intervals=speeds)
+    assert logged.floor(0.0) == pytest.approx(noise)
+    assert logged.with_noise(0.3).floor(0.0) == pytest.approx(0.3 * noise)
+    assert logged.with_noise(0.3).with_noise(1.0).floor(0.0) == pytest.approx(noise)
+    assert logged.measure_noise() == pytest.approx(np.sqrt(np.mean(logged.residuals**2)) / noise)
+    assert logged.with_noise(0.3).measure_noise() == pytest.approx(logged.measure_noise())
+    assert one.measure_noise() == 1.0 and one.with_noise(0.3).floor(0.0) == one.floor(0.0)

@@ -1,0 +1,39 @@
+"""Learn the white noise of logged speeds from what a fit leaves, where that is less than was assumed.
+
+What neighbours do not share, and what their past does not predict (`sensor/white_noise.py`), is noise and motion: an
+upper bound, far above the noise where rows are as slow as the motor. A model that leaves less has shown so: the noise
+is at most what is left, and its maximum likelihood is the RMS of that, with the degrees of freedom that the unknowns
+took (profile likelihood; Y. Pawitan, In All Likelihood, 2001, 3.4). One that leaves more lacks something, which says
+nothing of the sensor.
+"""
+
+from dataclasses import replace
+from math import sqrt
+
+import numpy as np
+
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.sensor.white_noise import LEAST_SAMPLES
+
+LEAST_SHARE = 0.03  # of what was assumed: the least noise that is learned
+
+
+def measure_noise(estimate: Estimate) -> float:
+    """Measure what an estimate leaves of speeds, as a share of the white noise that was assumed of them.
+
+    1 at most; and where nothing was assumed, or speeds are too few to tell. Two intervals are worth the square root of
+    two of them: what is left of one recording alone does not tell its own noise from another's.
+    """
+    rows = zip(estimate.problem.intervals, estimate.increments, strict=True)
+    noisy = [(data, part, data.slack == 0.0) for data, part in rows if data.has_assumed_noise]
+    squares = sum(float(np.sum((part / data.assumed_blur)[moves] ** 2)) / 2.0 for data, part, moves in noisy)
+    freedom = sum(int(np.count_nonzero(moves)) for _data, _part, moves in noisy) - len(estimate.theta)
+    return float(np.clip(sqrt(squares / freedom), LEAST_SHARE, 1.0)) if freedom >= LEAST_SAMPLES else 1.0
+
+
+def learn_noise(estimate: Estimate) -> Estimate:
+    """Learn the noise of logged speeds from what an estimate leaves: the same estimate, of speeds that are so noisy."""
+    share, intervals = measure_noise(estimate), estimate.problem.intervals
+    if all(data.learned == share for data in intervals if data.has_assumed_noise):
+        return estimate
+    return estimate.on(replace(estimate.problem, intervals=tuple(data.with_noise(share) for data in intervals)))
