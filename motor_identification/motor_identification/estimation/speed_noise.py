@@ -15,7 +15,7 @@ import numpy as np
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.sensor.white_noise import LEAST_SAMPLES
 
-LEAST_SHARE = 0.03  # of what was assumed: the least noise that is learned
+LEAST_SHARE = 1e-3  # of what was assumed: the least noise that is learned
 
 
 def measure_noise(estimate: Estimate) -> float:
