@@ -10,6 +10,7 @@ the gain of columns is that of least squares.
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
+from math import isfinite
 
 import numpy as np
 
@@ -62,9 +63,9 @@ def scan_scores(
     taken, _ = np.linalg.qr(target.jacobian(estimate.theta))
     columns = []
     for effect in effects:
-        none = _find_none(effect, estimate)
-        if not np.isfinite(none):
+        if not can_be_scanned(effect):
             continue
+        none = _find_none(effect, estimate)
         larger = estimate.problem.adding(effect)
         for sizes, theta in list_starts(estimate, larger):
             change = replace(target, problem=larger).residuals(theta) - white
@@ -73,6 +74,15 @@ def scan_scores(
                 columns.append(_Column(effect, sizes, none, left))
     rest = white - taken @ (taken.T @ white)
     return _list_singles(columns, rest), _list_pairs(columns, rest)
+
+
+def can_be_scanned(effect: str) -> bool:
+    """Decide whether an effect begins at a finite size, so that a little of it tells what more would gain.
+
+    A limit does not: what it does begins where it comes below the command.
+    """
+    spec = EFFECT_BY_NAME[effect].parameters[0]
+    return spec.at_least is not None or isfinite(spec.off)
 
 
 def _find_none(effect: str, estimate: Estimate) -> float:

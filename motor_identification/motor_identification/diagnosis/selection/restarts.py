@@ -12,6 +12,29 @@ from motor_identification.diagnosis.selection.selection import Selection, Select
 from motor_identification.progress import ProgressReporter
 from motor_identification.validation.instants import needs_instant
 
+KINDRED = (  # each does most of what the other does, and is what first hides it
+    ("coulomb_friction", "dead_zone"),
+    ("load_bias", "load_step"),
+    ("transport_delay", "armature_inductance"),
+)
+
+
+def begin_from_kindred(selection: Selection) -> list[Selection]:
+    """Begin selections with what is kindred to the first finding of one that leaves structure, where that is likely."""
+    if not selection.steps or not selection.model.held.confirms:
+        return []
+    first = selection.steps[0]
+    kindred = {one for pair in KINDRED if first.found.effect in pair for one in pair} - {first.found.effect}
+    likely = [one for one in first.tests if one.effect in kindred and one.evidence > likelihood_threshold()]
+    return [_begin_with(test, first, selection) for test in likely if not is_there_from_the_start(test)]
+
+
+def _begin_with(test: CandidateTest, first: SelectionStep, selection: Selection) -> Selection:
+    """Begin a selection with another first finding."""
+    rivals = tuple(name for name in first.rivals if name != test.effect)
+    begun = SelectionStep(first.before, test, first.tests, rivals, test.explains)
+    return begin_selection(test.model.estimate, selection.hold_out, selection.workers, (begun,))
+
 
 def retry_with_another_first(selection: Selection, reporter: ProgressReporter) -> Selection:
     """Select forward again from another first effect that was nearly as likely, where the gap stays above the floor.
@@ -25,10 +48,7 @@ def retry_with_another_first(selection: Selection, reporter: ProgressReporter) -
         return selection
     first = selection.steps[0]
     for test in list_other_firsts(first):
-        rivals = tuple(name for name in first.rivals if name != test.effect)
-        begun = SelectionStep(first.before, test, first.tests, rivals, test.explains)
-        start = begin_selection(test.model.estimate, selection.hold_out, selection.workers, (begun,))
-        other = select_forward(start, reporter, pairs=False)
+        other = select_forward(_begin_with(test, first, selection), reporter, pairs=False)
         if selection.model.complete:
             better = _is_simpler(other, selection) or (not settled and _leaves_less(other, selection))
             selection = other if better else selection

@@ -9,8 +9,9 @@ from one_way import HIDING, fit_levels
 from motor_identification.diagnosis.candidate_model import learn_errors
 from motor_identification.diagnosis.fits.disturbed_fit import make_disturbed_residuals
 from motor_identification.diagnosis.fits.effect_fit import fit_promised
-from motor_identification.diagnosis.fits.score_scan import Promise, scan_scores
+from motor_identification.diagnosis.fits.score_scan import Promise, can_be_scanned, scan_scores
 from motor_identification.estimation.estimate import Estimate
+from motor_model.effects import EFFECT_BY_NAME
 
 TRIED = ("coulomb_friction", "quadratic_drag", "voltage_limit", "supply_sag", "transport_delay")
 PAIR = ("coulomb_friction", "quadratic_drag")
@@ -45,6 +46,11 @@ def test_a_promise_is_about_what_a_fit_gains() -> None:
 def test_nothing_is_promised_where_nothing_is_missing() -> None:
     singles, pairs = scan(fit_levels(1))
     assert singles[0].gain < 3.0 and pairs[0].gain < 5.0
+
+
+def test_only_a_limit_cannot_be_scanned() -> None:
+    """A little of it, far above every command, does nothing."""
+    assert [effect for effect in EFFECT_BY_NAME if not can_be_scanned(effect)] == ["voltage_limit"]
 
 
 def test_promises_come_best_first_and_once() -> None:

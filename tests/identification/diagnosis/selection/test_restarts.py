@@ -12,6 +12,7 @@ from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.selection import restarts as module
 from motor_identification.diagnosis.selection.restarts import (
+    begin_from_kindred,
     list_other_firsts,
     retry_with_another_first,
     retry_with_pair,
@@ -46,6 +47,32 @@ def test_a_load_that_is_there_from_the_start_is_no_first_step_either(monkeypatch
     assert list_other_firsts(step_of(found, *tests)) == tests
     monkeypatch.setattr(module, "is_there_from_the_start", lambda test: test is tests[0])
     assert list_other_firsts(step_of(found, *tests)) == tests[1:]
+
+
+@pytest.mark.parametrize(
+    ("found", "begun"),
+    [
+        ("coulomb_friction", ["dead_zone"]),
+        ("dead_zone", ["coulomb_friction"]),
+        ("load_bias", ["load_step"]),
+        ("transport_delay", []),  # what is kindred to it was not likely
+        ("supply_sag", []),
+    ],
+)
+def test_what_is_kindred_to_the_first_finding_begins_a_selection(
+    found: str, begun: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before, least = stub_model(9.0), likelihood_threshold()
+    sizes = {"dead_zone": 1.1, "coulomb_friction": 1.1, "load_step": 1.1, "armature_inductance": 0.9, "warm_up": 9.0}
+    others = [stub_test(name, before, 8.0, times * least) for name, times in sizes.items() if name != found]
+    monkeypatch.setattr(module, "is_there_from_the_start", lambda test: False)
+    monkeypatch.setattr(module, "begin_selection", lambda estimate, hold_out, workers, steps: steps)
+    first = selection_of(stub_model(4.0), step_of(stub_test(found, before, 5.0, 100.0), *others))
+    steps = [one for (one,) in begin_from_kindred(first)]  # type: ignore[misc]
+    assert [one.found.effect for one in steps] == begun
+    assert begin_from_kindred(selection_of(stub_model(9.0))) == []
+    monkeypatch.setattr(module, "is_there_from_the_start", lambda test: True)
+    assert begin_from_kindred(first) == []
 
 
 def test_nothing_begins_anew_without_a_step_or_at_the_floor() -> None:

@@ -64,6 +64,20 @@ def test_a_prediction_is_compared_with_that_of_findings_that_stay(
     assert (selected(monkeypatch, plain, begun, ended) is ended) is believed
 
 
+@pytest.mark.parametrize(
+    ("times", "by_fit", "explained", "takes"),
+    [(1.01, True, True, True), (0.99, True, True, False), (1.01, True, False, False), (1.01, False, True, True)],
+)
+def test_what_is_left_beside_a_torque_may_take_the_place_of_the_motor(
+    times: float, by_fit: bool, explained: bool, takes: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Five stairs: 0.061 rad/s were left of a friction on a coasting bridge, 0.31 of a drag beside a torque."""
+    monkeypatch.setattr(Model, "complete", explained)
+    plain = selection_of(seen(stub_model(4.0), by_fit))
+    left = selection_of(seen(stub_model(times * thresholds.TORQUE_AS_MOTOR_GAP * 4.0), by_fit))
+    assert module.takes_place_of_motor(left, plain) is takes
+
+
 @pytest.mark.parametrize(("times", "believed"), [(0.99, True), (1.01, False)])
 def test_a_torque_in_the_place_of_the_motor_is_none(
     times: float, believed: bool, monkeypatch: pytest.MonkeyPatch

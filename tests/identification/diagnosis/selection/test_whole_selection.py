@@ -58,3 +58,51 @@ def test_what_a_torque_adds_to_does_not_take_away_what_is_told_without_one(
     monkeypatch.setattr(static_evidence, "find_untold", lambda model: untold if model.effects == untold else ())
     chosen, names = module.select(start, SILENT)
     assert (chosen, names) == ((plain, ()) if found == "plain" else (start, untold))
+
+
+@pytest.mark.parametrize(
+    ("left", "again", "undetermined", "taken"),
+    [
+        (9.0, 0.9, (), True),
+        (9.0, 1.1 * thresholds.EXPLAINED_GAP, (), False),  # structure is left from there, too
+        (9.0, 0.9, ("warm_up",), False),
+        (0.9, 0.8, (), False),  # nothing is left that would need it
+    ],
+)
+def test_a_selection_that_leaves_structure_begins_anew_from_what_is_kindred(
+    left: float, again: float, undetermined: tuple[str, ...], taken: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Friction did the work of a dead zone, which was found from there only, with all that was missing."""
+    start = selection_of(stub_model(10.0))
+    first = selection_of(stub_model(left, 0.0), step_of(stub_test("coulomb_friction", start.model, left, 100.0)))
+    other = selection_of(stub_model(again, 0.0), step_of(stub_test("dead_zone", start.model, again, 90.0)))
+    monkeypatch.setattr(module, "select_forward", lambda selection, *_, **__: other if selection is other else first)
+    monkeypatch.setattr(module, "retry_with_another_first", lambda selection, reporter: selection)
+    monkeypatch.setattr(module, "retry_with_pair", lambda selection, reporter: selection)
+    monkeypatch.setattr(module, "begin_from_kindred", lambda selection: [other])
+    ended = {id(first): (first, ()), id(other): (other, undetermined)}
+    monkeypatch.setattr(module, "_select_from", lambda start, begun, found, plain, reporter: ended[id(plain)])
+    assert module.select(start, SILENT) == ((other, ()) if taken else (first, ()))
+
+
+@pytest.mark.parametrize(("gap", "torque"), [(2.9, True), (3.1, False)])
+def test_a_torque_that_takes_the_place_of_the_motor_in_the_end_is_not_believed(
+    gap: float, torque: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What was not determined was dropped beside it, and left five times what had been found without one."""
+    start = selection_of(stub_model(9.0))
+    plain = selection_of(stub_model(1.0, 0.0), step_of(stub_test("coulomb_friction", start.model, 1.0, 100.0)))
+    beside = selection_of(stub_model(1.5, 0.0))
+    left = selection_of(stub_model(gap, 0.0), step_of(stub_test("quadratic_drag", start.model, gap, 100.0)))
+    assert thresholds.TORQUE_AS_MOTOR_GAP == 3.0
+    monkeypatch.setattr(module, "select_forward", lambda *_, **__: plain)
+    monkeypatch.setattr(module, "retry_with_another_first", lambda selection, reporter: selection)
+    monkeypatch.setattr(module, "retry_with_pair", lambda selection, reporter: selection)
+    monkeypatch.setattr(module, "select_beside_torque", lambda *rest: beside)
+    monkeypatch.setattr(module, "begin_from_kindred", lambda selection: [])
+    monkeypatch.setattr(module, "eliminate_backward", lambda selection, reporter: selection)
+    monkeypatch.setattr(module, "drop_undetermined", lambda one, reporter: (left if one is beside else one, ()))
+    monkeypatch.setattr(module, "list_hidden_by_torque", lambda *rest: ())
+    monkeypatch.setattr(module, "find_untold", lambda model: ())
+    chosen, _ = module.select(start, SILENT)
+    assert chosen.model is (left if torque else plain).model
