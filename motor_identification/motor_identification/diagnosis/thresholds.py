@@ -254,6 +254,8 @@ MOST_OF_NEAREST = 0.8
 # Of squares of travel, in units of the sensor's own: what a model moves where the motor stood under a voltage. A motion
 # of ten slots, or one interval in which a speed that was measured as zero is off by ten standard deviations.
 LEAST_FALSE_MOTION = 100.0
+# Times that a motor set off from rest: of one or two, where it stood may have been a hill of a torque over the angle.
+FEW_DEPARTURES = 2
 # Of those squares: what an effect takes away that holds the motor. The rest, 70 % of the travel, is of a level that
 # everything else in the recording pulls at. Measured: 0.66 and 0.94 for the frictions of two robots beside what is not
 # in the table, 0.17 and less for a delay and a voltage limit in their place.

@@ -12,6 +12,7 @@ from motor_identification.diagnosis.effect_test import is_over_too_soon, list_ca
 from motor_identification.diagnosis.evidence.command_evidence import find_falling, find_ignored, goes_with_sweep
 from motor_identification.diagnosis.evidence.line_evidence import list_unseen_disc
 from motor_identification.diagnosis.evidence.missed_edges import count_missed_edges
+from motor_identification.diagnosis.evidence.standstill_evidence import list_hills
 from motor_identification.diagnosis.result import Alternative, Diagnosis, Finding, Nearest, Verdict, list_vague
 from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
 from motor_identification.discrepancy.free_curves import BY_TIME
@@ -129,11 +130,16 @@ def _list_gaps(selection: Selection) -> list[float]:
 def _list_findings(selection: Selection, model: Fit, gaps: Sequence[float]) -> tuple[Finding, ...]:
     """List what was found in the order of the steps, then missed edges."""
     findings = [
-        _make_finding(step, model, gap, list_unseen_disc(selection.model, step.found.effect))
+        _make_finding(step, model, gap, _list_unseen(selection.model, step.found.effect))
         for step, gap in zip(selection.steps, gaps, strict=True)
     ]
     missed = find_missed_edges(selection.model)
     return (*findings, *([] if missed is None else [missed]))
+
+
+def _list_unseen(model: Model, effect: str) -> tuple[str, ...]:
+    """List what a recording could not have told from an effect, whatever the likelihoods."""
+    return (*list_unseen_disc(model, effect), *list_hills(model, effect))
 
 
 def _make_finding(step: SelectionStep, model: Fit, gap_after: float, unseen: Sequence[str] = ()) -> Finding:

@@ -10,7 +10,9 @@ from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.measurement.standstill import LEAST_STANDSTILL
+from motor_identification.periodic.periodic_fit import LOAD_OVER_ANGLE
 from motor_identification.recording import Bools, Floats, Integers, Recording
+from motor_model.effects import EFFECT_BY_NAME
 
 ABOUT_ONE = 1.5  # slots are irregular
 Motion = tuple[Recording, Intervals, Floats]  # and simulated minus measured travel [rad] of every interval
@@ -26,6 +28,45 @@ def was_held(model: Model) -> bool:
     """Decide whether the motor stood under a voltage anywhere, and what holds it could show."""
     lag = model.estimate.parameters.time_constant
     return any(bool(find_held_intervals(recording, data, lag).any()) for recording, data, _ in _list_motions(model))
+
+
+def list_hills(model: Model, effect: str) -> tuple[str, ...]:
+    """List the effects that vary with the angle and hold a motor as a breakaway does, where it set off once or twice.
+
+    From where it stood, a hill of a torque over the angle holds it as well; several places tell the two, or a friction
+    that is seen to fall with the speed. Measured: a breakaway of 0.31 ± 0.07 V at one start from rest, of a motor with
+    a friction of 0.21 V and a ripple of 0.09 V; either was as likely.
+    """
+    row = EFFECT_BY_NAME[effect]
+    falls = [spec.name for spec in row.parameters[1:]]
+    alike = row.holds and row.implies is not None and all(one in model.uncertainty.not_identifiable for one in falls)
+    if not alike or LOAD_OVER_ANGLE in model.effects or count_departures(model) > thresholds.FEW_DEPARTURES:
+        return ()
+    return (LOAD_OVER_ANGLE,)
+
+
+def count_departures(model: Model) -> int:
+    """Count how often the motor stood still; what parts two of them lasts for a time constant at least."""
+    lag = model.estimate.parameters.time_constant
+    return sum(_count_stretches(data, _mark_still(one, data, lag), lag) for one, data, _ in _list_motions(model))
+
+
+def _mark_still(recording: Recording, data: Intervals, lag: float) -> Bools:
+    """Mark the intervals in which the motor did not move, as far as its sensor tells, whatever was applied."""
+    anyway = np.ones(len(data.speed), dtype=int)
+    long = data.duration > LEAST_STANDSTILL * recording.sample_period
+    count = np.min(
+        data.travel[~long & (data.travel > 0.0)], initial=np.inf
+    )  # of those without stamps, which no slot has
+    one = (data.speed == 0.0) | (long & (data.travel < ABOUT_ONE * np.maximum(data.slot, count)))
+    return np.asarray(one | _mark_within_noise(data, anyway, lag))
+
+
+def _count_stretches(data: Intervals, marks: Bools, lag: float) -> int:
+    """Count stretches of marked intervals that are further apart than a lag [s]."""
+    order = data.order[marks[data.order]]
+    begin, end = data.time[data.first[order]], data.time[data.last[order]]
+    return int(np.count_nonzero(begin[1:] - np.maximum.accumulate(end)[:-1] > lag)) + min(len(order), 1)
 
 
 def measure_false_motion(model: Model) -> float:
@@ -62,9 +103,9 @@ def find_held_intervals(recording: Recording, data: Intervals, lag: float) -> Bo
     way = np.where(recording.voltage > least, 1, np.where(recording.voltage < -least, -1, 0))
     last = way[end - 1]
     against = np.where(last > 0, _count_between(way < 0, begin, end), _count_between(way > 0, begin, end))
+    pushed = (last != 0) & (against == 0)
     long = data.duration > LEAST_STANDSTILL * recording.sample_period
     one_slot = long & (data.travel < ABOUT_ONE * data.slot)
-    pushed = (last != 0) & (against == 0)
     return np.asarray(((data.speed == 0.0) | one_slot | _mark_within_noise(data, last * pushed, lag)) & pushed)
 
 

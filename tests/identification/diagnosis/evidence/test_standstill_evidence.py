@@ -15,8 +15,10 @@ from motor_identification.diagnosis.candidate_fit import validate_model
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.evidence import standstill_evidence
 from motor_identification.diagnosis.evidence.standstill_evidence import (
+    count_departures,
     explains_standstills,
     find_held_intervals,
+    list_hills,
     measure_false_motion,
 )
 from motor_identification.estimation.direction_correction import correct_directions
@@ -116,3 +118,40 @@ def test_logged_speeds_within_their_noise_are_a_standstill_if_that_lasts(
     data = replace(data, speed=np.where(voltage != 0.0, near * [1, -1, 1, -1, 1, -1], 5.0))
     lag *= rows / thresholds.STILL_CONSTANTS
     assert find_held_intervals(recording, data, lag).tolist() == [held and bool(one) for one in voltage]
+
+
+def test_departures_are_counted_in_every_recording() -> None:
+    """Two recordings of five rests each."""
+    bare, _ = started_from_rest(ks=0.4)
+    assert count_departures(bare) == 10
+
+
+def test_a_first_count_that_comes_late_is_a_standstill() -> None:
+    """Counts without stamps have no slot: the motor stood for 60 ms, ran, and stood once more."""
+    time = np.concatenate([[0.0], 0.06 + 0.002 * np.arange(50), [0.5], 0.502 + 0.002 * np.arange(50)])
+    travel = np.concatenate([[0.008], np.full(49, 0.016), [0.016], np.full(50, 0.016)])
+    data = index_intervals(time[:-1], time[1:], travel / np.diff(time), np.zeros(len(travel)))
+    recording = cast(Recording, SimpleNamespace(sample_period=0.002))
+    held = SimpleNamespace(recordings=(recording,), intervals=(data,), increments=(travel,))
+    problem, parameters = SimpleNamespace(recordings=(recording,)), SimpleNamespace(time_constant=0.05)
+    model = SimpleNamespace(estimate=SimpleNamespace(parameters=parameters, problem=problem), held=held)
+    assert count_departures(cast(Model, model)) == 2
+
+
+@pytest.mark.parametrize(
+    ("effect", "unknown", "departures", "hills"),
+    [
+        ("static_friction", ("stribeck_speed",), thresholds.FEW_DEPARTURES, ("torque_ripple",)),
+        ("static_friction", ("stribeck_speed",), thresholds.FEW_DEPARTURES + 1, ()),
+        ("static_friction", (), thresholds.FEW_DEPARTURES, ()),  # it is seen to fall with the speed
+        ("coulomb_friction", ("ks",), 1, ()),
+    ],
+)
+def test_one_start_from_rest_tells_no_breakaway_from_a_hill(
+    effect: str, unknown: tuple[str, ...], departures: int, hills: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(standstill_evidence, "count_departures", lambda model: departures)
+    model = SimpleNamespace(uncertainty=SimpleNamespace(not_identifiable=unknown), effects=(effect,))
+    assert list_hills(cast(Model, model), effect) == hills
+    model.effects = (effect, "torque_ripple")
+    assert list_hills(cast(Model, model), effect) == ()
