@@ -11,12 +11,7 @@ from motor_identification.diagnosis.selection.hidden_pairs import find_pair, lis
 from motor_identification.diagnosis.selection.selection import Selection, SelectionStep, begin_selection
 from motor_identification.progress import ProgressReporter
 from motor_identification.validation.instants import needs_instant
-
-KINDRED = (  # each does most of what the other does, and is what first hides it
-    ("coulomb_friction", "dead_zone"),
-    ("load_bias", "load_step"),
-    ("transport_delay", "armature_inductance"),
-)
+from motor_model.effects import EFFECT_BY_NAME, LAGS
 
 
 def begin_from_kindred(selection: Selection) -> list[Selection]:
@@ -24,9 +19,19 @@ def begin_from_kindred(selection: Selection) -> list[Selection]:
     if not selection.steps or not selection.model.held.confirms:
         return []
     first = selection.steps[0]
-    kindred = {one for pair in KINDRED if first.found.effect in pair for one in pair} - {first.found.effect}
-    likely = [one for one in first.tests if one.effect in kindred and one.evidence > likelihood_threshold()]
+    kindred = [one for one in first.tests if _are_kindred(one.effect, first.found.effect)]
+    likely = [one for one in kindred if one.evidence > likelihood_threshold()]
     return [_begin_with(test, first, selection) for test in likely if not is_there_from_the_start(test)]
+
+
+def _are_kindred(one: str, other: str) -> bool:
+    """Decide whether each of two effects does most of what the other does, and so hides it where it comes first.
+
+    Both make the motion late, or hold the motor by themselves, or one is the other from some instant on.
+    """
+    rows = EFFECT_BY_NAME[one], EFFECT_BY_NAME[other]
+    late, hold = {one, other} <= set(LAGS), all(row.holds and row.implies is None for row in rows)
+    return one != other and (late or hold or rows[0].constant == other or rows[1].constant == one)
 
 
 def _begin_with(test: CandidateTest, first: SelectionStep, selection: Selection) -> Selection:
