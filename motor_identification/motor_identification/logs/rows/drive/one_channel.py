@@ -59,7 +59,8 @@ def find_ways(signals: Signals) -> Floats | None:
 def compare_signs(signals: Signals, steps: Floats) -> tuple[float, float]:
     """Compare what a motor that follows its voltage leaves of counts that only rise, and of the same with a sign.
 
-    The least squares of either, alike where a sign of their own leaves hardly any. steps: with the sign, since the row before, shape (K,).
+    The least squares of either, alike where a sign of their own leaves hardly any of the motion. steps: with the sign,
+    since the row before, shape (K,).
     """
     parts = _part_alike(signals)
     if parts is None:

@@ -54,16 +54,17 @@ def test_a_motor_that_turns_round_within_a_row_has_a_sign_of_its_own() -> None:
 
 
 @pytest.mark.parametrize("tau", [0.3, 0.5, 1.0])
+@pytest.mark.parametrize("late", [0.0, 0.3])
 @pytest.mark.parametrize("levels", [2, 40])
 def test_a_motor_of_half_a_row_has_a_sign_of_its_own_under_a_voltage_that_changes_in_each(
-    tau: float, levels: int
+    tau: float, late: float, levels: int
 ) -> None:
     """Its speeds are means over rows, of which a part is of the voltage before: once they were |speeds|, by mistake."""
     random = np.random.default_rng(4)
-    volts, keep = random.choice(np.linspace(-4.0, 4.0, levels), 100), np.exp(-1.0 / tau)
-    after = lfilter([1.0 - keep], [1.0, -keep], volts)
-    before = np.append(0.0, after[:-1])
-    speeds = (volts + (before - volts) * tau * (1.0 - keep)) / 0.05 + 0.5 * random.standard_normal(100)
+    volts = random.choice(np.linspace(-4.0, 4.0, levels), 100)
+    fine, keep = np.repeat(volts, 100), np.exp(-0.01 / tau)
+    fine = np.concatenate([np.zeros(round(100 * late)), fine])[: len(fine)]
+    speeds = lfilter([1.0 - keep], [1.0, -keep], fine).reshape(-1, 100).mean(axis=1) / 0.05
     rounded = np.rint(np.append(0.0, speeds[:-1]) / 0.2) * 0.2
     signals = counted(volts, np.zeros(FINE * 100))
     assert take_off_commands_sign_of_speeds(replace(signals, motion=rounded)) is None
