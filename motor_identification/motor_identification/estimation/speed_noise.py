@@ -25,8 +25,8 @@ def measure_noise(estimate: Estimate) -> float:
     two of them: what is left of one recording alone does not tell its own noise from another's.
     """
     rows = zip(estimate.problem.intervals, estimate.increments, strict=True)
-    noisy = [(data, part, data.slack == 0.0) for data, part in rows if data.has_assumed_noise]
-    squares = sum(float(np.sum((part / data.assumed_blur)[moves] ** 2)) / 2.0 for data, part, moves in noisy)
+    noisy = [(data, part, data.tells_noise) for data, part in rows if data.has_assumed_noise]
+    squares = sum(float(np.sum((part[moves] / data.assumed_blur[moves]) ** 2)) / 2.0 for data, part, moves in noisy)
     freedom = sum(int(np.count_nonzero(moves)) for _data, _part, moves in noisy) - len(estimate.theta)
     return float(np.clip(sqrt(squares / freedom), LEAST_SHARE, 1.0)) if freedom >= LEAST_SAMPLES else 1.0
 

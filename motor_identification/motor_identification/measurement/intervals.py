@@ -63,6 +63,11 @@ class Intervals:
         """[rad] `blur` before anything was learned of it, shape (I,)."""
         return np.asarray(self.blur / self.learned)
 
+    @property
+    def tells_noise(self) -> Bools:
+        """Whether what is left of an interval tells of that noise, shape (I,): no standstill, nor what is known."""
+        return np.asarray((self.slack == 0.0) & (self.blur > 0.0))
+
     def with_noise(self, share: float) -> "Intervals":
         """The same speeds, if noise was assumed of them with a share of that; standstills are as sharp as they were."""
         if not self.has_assumed_noise or share == self.learned:

@@ -116,8 +116,8 @@ class HeldOut:
     def measure_noise(self) -> float:
         """Measure what is left of speeds that count, as a share of the white noise assumed of them; 1 at most."""
         rows = zip(self.intervals, self.increments, self.scored, strict=True)
-        noisy = [(data, part, marks & (data.slack == 0.0)) for data, part, marks in rows if data.has_assumed_noise]
-        squares = sum(float(np.sum((part / data.assumed_blur)[marks] ** 2)) / 2.0 for data, part, marks in noisy)
+        noisy = [(data, part, marks & data.tells_noise) for data, part, marks in rows if data.has_assumed_noise]
+        squares = sum(float(np.sum((part[marks] / data.assumed_blur[marks]) ** 2)) / 2.0 for data, part, marks in noisy)
         count = sum(int(np.count_nonzero(marks)) for _data, _part, marks in noisy)
         return min(sqrt(squares / count), 1.0) if count else 1.0
 
