@@ -95,8 +95,8 @@ def find_speed_sensor(recording: Recording) -> SpeedSensor:
         by_length = speed[row] * lengths / window  # counts of rows that differ lie on a lattice by their own lengths
         own, sigma_of_own, counts = find_noise(by_length, recording.voltage[row], window, counted, gear)
         whole = are_whole_products(speed[row], lengths, own * window)
-        sharper = step <= 0.0 or measure_blur(by_length, own) < SHARPER * measure_blur(speed[row], step)
-        if own > 0.0 and sharper and not whole:
+        sharper = own > 0.0 and (step <= 0.0 or measure_blur(by_length, own) < SHARPER * measure_blur(speed[row], step))
+        if sharper and not whole:
             return SpeedSensor(row, made, window, lag, frame, own, sigma_of_own, counts, wrong, lengths)
     return SpeedSensor(row, made, window, lag, frame, step, sigma, edges, wrong)
 
