@@ -11,6 +11,7 @@ from stub_selections import selection_of, step_of
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis import verdict as verdicts
 from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.evidence.command_evidence import Falling
 from motor_identification.diagnosis.result import Finding, Nearest, Verdict
 from motor_identification.diagnosis.selection.selection import Selection, begin_selection
 from motor_identification.diagnosis.verdict import (
@@ -149,6 +150,17 @@ def test_nothing_is_explained_beside_a_torque_larger_than_those_of_gears(
     assert decide((finding(),), chosen(stub_model(AT, 0.0)), ()) == (verdict, "")
     nothing = decide((), chosen(stub_model(AT, 0.0)), ())
     assert nothing == (Verdict.UNDECIDED if tossed else Verdict.NOTHING_MISSING, "")
+
+
+@pytest.mark.parametrize(
+    ("falling", "verdict"), [(None, Verdict.EXPLAINED), (Falling(5.2, 286.0, 11.2, 213.0), Verdict.UNDECIDED)]
+)
+def test_nothing_is_explained_where_the_speed_falls_as_the_voltage_rises(
+    monkeypatch: pytest.MonkeyPatch, falling: Falling | None, verdict: Verdict
+) -> None:
+    """A real motor at 12 V was slower than at 5: its sensor missed edges, and a limit of the voltage explained it."""
+    monkeypatch.setattr(verdicts, "find_falling", lambda held: falling)
+    assert decide((finding(),), chosen(stub_model(AT, 0.0)), ()) == (verdict, "")
 
 
 def test_a_lag_that_may_be_of_the_sensor_is_undecided() -> None:
