@@ -96,7 +96,7 @@ def _watch_saturation(
 ) -> tuple[list[Line], Told]:
     """Watch for a reference that all the voltage does not reach."""
     terms, limit = output.terms, config.voltage_limit
-    full = output.state == RUNNING and terms.saturated and abs(terms.voltage) >= 0.98 * limit > 0.0
+    full = output.state == RUNNING and terms.saturated and abs(terms.voltage) >= ALL * limit > 0.0
     if not full or wanted is None or abs(output.speed) > SLOWER * abs(wanted):
         return [], replace(told, full_since=None, full_said=told.full_said and output.state == RUNNING and full)
     since = now if told.full_since is None else told.full_since

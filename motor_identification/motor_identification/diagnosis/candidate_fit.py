@@ -19,7 +19,7 @@ from motor_identification.diagnosis.fits.starts import list_starts, start_with
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.kv_split import can_split_kv, fit_split_kv, is_split_of_motor
 from motor_identification.estimation.least_squares import fit_speeds
-from motor_identification.estimation.speed_noise import learn_noise, measure_noise
+from motor_identification.estimation.speed_noise import measure_noise, set_noise
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.noise.gain_learning import learn_errors_of_runs
 from motor_identification.noise.likelihood import estimate_noise, log_likelihood
@@ -36,7 +36,8 @@ def validate_model(hold_out: HoldOut, estimate: Estimate, like: Model | None = N
     White noise that was assumed of speeds is at most what it leaves there; its floor, at most what it leaves in all.
     like: a similar model; where that is judged beside a random torque, so is this one.
     """
-    estimate, share = learn_noise(estimate), measure_noise(estimate)
+    share = measure_noise(estimate)
+    estimate = set_noise(estimate, share)
     held = hold_out.validate(estimate).with_noise(share)
     rows = list(zip(estimate.problem.intervals, estimate.increments, strict=True))
     noise = estimate_noise(rows)

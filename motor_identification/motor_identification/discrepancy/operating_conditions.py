@@ -50,7 +50,7 @@ def _of_one(number: int, recording: Recording, data: Intervals, angle: Floats) -
     start, end = data.time[data.first], data.time[data.last]
     middle = 0.5 * (start + end)
     track: Track = make_track(data, angle)
-    latest = np.maximum(np.searchsorted(recording.time, middle, side="right") - 1, 0)
+    latest = data.find_rows(recording)
     order = np.argsort(middle, kind="stable")
     since, acceleration = np.empty(len(middle)), np.empty(len(middle))
     since[order] = _since(start[order], end[order], data.speed[order], data.slack[order] > 0.0)

@@ -25,15 +25,19 @@ def measure_noise(estimate: Estimate) -> float:
     two of them: what is left of one recording alone does not tell its own noise from another's.
     """
     rows = zip(estimate.problem.intervals, estimate.increments, strict=True)
-    noisy = [(data, part, data.tells_noise) for data, part in rows if data.has_assumed_noise]
-    squares = sum(float(np.sum((part[moves] / data.assumed_blur[moves]) ** 2)) / 2.0 for data, part, moves in noisy)
-    freedom = sum(int(np.count_nonzero(moves)) for _data, _part, moves in noisy) - len(estimate.theta)
-    return float(np.clip(sqrt(squares / freedom), LEAST_SHARE, 1.0)) if freedom >= LEAST_SAMPLES else 1.0
+    squares, counts = zip(*(data.sum_noise(part) for data, part in rows), strict=True)
+    freedom = sum(counts) - len(estimate.theta)
+    return float(np.clip(sqrt(sum(squares) / freedom), LEAST_SHARE, 1.0)) if freedom >= LEAST_SAMPLES else 1.0
 
 
 def learn_noise(estimate: Estimate) -> Estimate:
     """Learn the noise of logged speeds from what an estimate leaves: the same estimate, of speeds that are so noisy."""
-    share, intervals = measure_noise(estimate), estimate.problem.intervals
+    return set_noise(estimate, measure_noise(estimate))
+
+
+def set_noise(estimate: Estimate, share: float) -> Estimate:
+    """Set the noise of logged speeds to a share of what was assumed: the same estimate, of speeds that are so noisy."""
+    intervals = estimate.problem.intervals
     if all(data.learned == share for data in intervals if data.has_assumed_noise):
         return estimate
     return estimate.on(replace(estimate.problem, intervals=tuple(data.with_noise(share) for data in intervals)))

@@ -10,7 +10,7 @@ from math import sqrt, tau
 
 import numpy as np
 
-from motor_identification.recording import Bools, Floats, Integers
+from motor_identification.recording import Bools, Floats, Integers, Recording
 from motor_identification.sensor.pulses.missed_edges import MissedShare
 
 UNEVEN_ROWS = 0.05  # of a row: what most of them, all but a fifth, differ by where their lengths are by chance
@@ -68,12 +68,27 @@ class Intervals:
         """Whether what is left of an interval tells of that noise, shape (I,): no standstill, nor what is known."""
         return np.asarray((self.slack == 0.0) & (self.blur > 0.0))
 
+    def sum_noise(self, increments: Floats, marks: Bools | None = None) -> tuple[float, int]:
+        """Sum the squares of increments (I,) [rad] of an angle in units of the noise assumed of each, and count them.
+
+        Two instants make an increment. marks: the intervals that count, shape (I,); all, without.
+        """
+        if not self.has_assumed_noise:
+            return 0.0, 0
+        told = self.tells_noise if marks is None else self.tells_noise & marks
+        return float(np.sum((increments[told] / self.assumed_blur[told]) ** 2)) / 2.0, int(np.count_nonzero(told))
+
     def with_noise(self, share: float) -> "Intervals":
         """The same speeds, if noise was assumed of them with a share of that; standstills are as sharp as they were."""
         if not self.has_assumed_noise or share == self.learned:
             return self
         blur = np.where(self.slack > 0.0, self.blur, self.assumed_blur * share)
         return replace(self, blur=blur, learned=share)
+
+    def find_rows(self, recording: Recording) -> Integers:
+        """Find the rows of their recording that hold in the middle of every interval, shape (I,)."""
+        middle = 0.5 * (self.time[self.first] + self.time[self.last])
+        return np.maximum(np.searchsorted(recording.time, middle, side="right") - 1, 0)
 
     @cached_property
     def duration(self) -> Floats:

@@ -132,9 +132,7 @@ def _describe_stop(held: HeldOut, largest: float) -> str:
     """
     stood = driven = 0.0
     for recording, data in zip(held.recordings, held.intervals, strict=True):
-        middle = 0.5 * (data.time[data.first] + data.time[data.last])
-        row = np.maximum(np.searchsorted(recording.time, middle, "right") - 1, 0)
-        large = np.abs(recording.voltage[row]) > LARGE_SHARE * largest
+        large = np.abs(recording.voltage[data.find_rows(recording)]) > LARGE_SHARE * largest
         slow = np.abs(data.speed) < SLOW * float(np.max(np.abs(data.speed), initial=0.0))
         driven += float(data.duration[large].sum())
         stood += float(data.duration[large & slow & np.logical_or.accumulate(~slow)].sum())

@@ -116,10 +116,8 @@ class HeldOut:
     def measure_noise(self) -> float:
         """Measure what is left of speeds that count, as a share of the white noise assumed of them; 1 at most."""
         rows = zip(self.intervals, self.increments, self.scored, strict=True)
-        noisy = [(data, part, marks & data.tells_noise) for data, part, marks in rows if data.has_assumed_noise]
-        squares = sum(float(np.sum((part[marks] / data.assumed_blur[marks]) ** 2)) / 2.0 for data, part, marks in noisy)
-        count = sum(int(np.count_nonzero(marks)) for _data, _part, marks in noisy)
-        return min(sqrt(squares / count), 1.0) if count else 1.0
+        squares, counts = zip(*(data.sum_noise(part, marks) for data, part, marks in rows), strict=True)
+        return min(sqrt(sum(squares) / sum(counts)), 1.0) if sum(counts) else 1.0
 
     def has_intervals_of(self, other: "HeldOut") -> bool:
         """Whether another model is judged by the same intervals; not where directions of some were read anew."""

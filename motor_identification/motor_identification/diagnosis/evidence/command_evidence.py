@@ -54,8 +54,7 @@ def find_falling(held: HeldOut) -> Falling | None:
         return None
     visits: list[list[Floats]] = [[] for _ in range(LEVELS)]
     for recording, data, left in zip(held.recordings, held.intervals, held.residuals_of, strict=False):
-        middle = 0.5 * (data.time[data.first] + data.time[data.last])
-        voltage = recording.voltage[np.maximum(np.searchsorted(recording.time, middle, "right") - 1, 0)]
+        voltage = recording.voltage[data.find_rows(recording)]
         level = np.minimum((LEVELS * np.abs(voltage) / largest).astype(int), LEVELS - 1)
         each = np.sign(voltage) * np.stack([data.speed, data.speed + left, voltage])
         for part in np.split(np.arange(len(level)), np.flatnonzero(np.diff(level)) + 1):

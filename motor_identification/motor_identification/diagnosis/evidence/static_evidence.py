@@ -61,9 +61,7 @@ def count_places(judged: HeldOut) -> int:
 
 def _place(recording: Recording, data: Intervals) -> tuple[Floats, Floats]:
     """Voltage [V] in the middle of each interval, and mean speed [rad/s], shape (I,) each."""
-    middle = 0.5 * (data.time[data.first] + data.time[data.last])
-    rows = np.searchsorted(recording.time, middle, side="right") - 1
-    return recording.voltage[np.maximum(rows, 0)], data.speed
+    return recording.voltage[data.find_rows(recording)], data.speed
 
 
 def _round_to_fifths(values: Floats) -> Floats:
