@@ -14,6 +14,7 @@ from motor_identification.diagnosis.evidence.line_evidence import (
     drop_few_turns,
     has_waves,
     is_heavy_load,
+    is_of_sensor,
 )
 from motor_identification.diagnosis.fits.effect_fit import fit_with_effect
 from motor_identification.estimation.estimate import Estimate
@@ -113,9 +114,14 @@ def try_load_once_a_turn(current: Model, hold_out: HoldOut) -> CandidateTest:
 
 
 def _compare_periodic(current: Model, hold_out: HoldOut, effect: str, larger: Estimate) -> CandidateTest:
-    """Compare both on held-out motion in directions of the larger one, which may turn the shaft back elsewhere."""
+    """Compare both on held-out motion in directions of the larger one, which may turn the shaft back elsewhere.
+
+    Nothing is found where a sensor that errs with the angle makes the line.
+    """
     own = hold_out.correct_directions(larger)
-    return CandidateTest(effect, validate_model(own, current.estimate, current), validate_model(own, larger, current))
+    test = CandidateTest(effect, validate_model(own, current.estimate, current), validate_model(own, larger, current))
+    is_likely = test.evidence > thresholds.RIVAL_MARGIN
+    return CandidateTest(effect, current, current) if is_likely and is_of_sensor(test) else test
 
 
 def refine_repeatedly(model: Model, hold_out: HoldOut, rounds: int = thresholds.REFINEMENTS) -> Model:

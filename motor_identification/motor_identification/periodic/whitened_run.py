@@ -50,8 +50,12 @@ class WhitenedRun:
 
     def sum_products(self, cycles: float, block: Integers) -> Floats:
         """Add up what least squares of a ripple of so many cycles needs to know of every block, shape (B, 5)."""
+        return self.sum_products_of(self.course.response(cycles), block)
+
+    def sum_products_of(self, increments: tuple[Floats, Floats], block: Integers) -> Floats:
+        """Add up the same of any two increments (I,) [rad], of a sine and of a cosine."""
         sums = np.zeros((int(block.max()) + 1, 5))
-        sine, cosine = (self.project_out_transient(self.whiten(part)) for part in self.course.response(cycles))
+        sine, cosine = (self.project_out_transient(self.whiten(part)) for part in increments)
         _add_products(self.white, sine, cosine, block, sums)
         return sums
 

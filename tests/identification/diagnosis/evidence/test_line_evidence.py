@@ -12,6 +12,7 @@ from stub_models import stub_model, stub_test, with_effects
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest
+from motor_identification.diagnosis.evidence import line_evidence
 from motor_identification.diagnosis.evidence.line_evidence import (
     count_waves,
     drop_chance_harmonics,
@@ -19,6 +20,7 @@ from motor_identification.diagnosis.evidence.line_evidence import (
     has_waves,
     is_heavy_load,
     is_no_ripple,
+    is_of_sensor,
     list_unseen_disc,
 )
 from motor_identification.estimation.estimate import Estimate
@@ -179,3 +181,32 @@ def test_a_torque_once_a_turn_may_be_a_disc_where_nothing_tells_of_one(
     monkeypatch.setattr(Intervals, "tells_of_disc", counted)
     assert list_unseen_disc(test.model, "torque_ripple") == (("encoder_eccentricity",) if rival else ())
     assert list_unseen_disc(test.model, "encoder_eccentricity") == ()
+
+
+@pytest.mark.parametrize(
+    ("lead", "slot", "cycles", "sensor"),
+    [
+        (1.01 * thresholds.RIVAL_MARGIN, 0.0, 2.0, True),
+        (0.99 * thresholds.RIVAL_MARGIN, 0.0, 2.0, False),
+        (1.01 * thresholds.RIVAL_MARGIN, 0.1, 2.0, False),  # counted slots are learned
+        (1.01 * thresholds.RIVAL_MARGIN, 0.0, None, False),  # no line was found to fit
+    ],
+)
+def test_a_line_of_logged_speeds_is_the_sensors_where_that_explains_it_better(
+    monkeypatch: pytest.MonkeyPatch, lead: float, slot: float, cycles: float | None, sensor: bool
+) -> None:
+    asked: list[tuple[object, object, float]] = []
+
+    def measure(estimate: object, tracks: object, cycles: float) -> float:
+        asked.append((estimate, tracks, cycles))
+        return lead
+
+    monkeypatch.setattr(line_evidence, "measure_sensor_lead", measure)
+    problem = SimpleNamespace(intervals=(SimpleNamespace(slot=slot, gear=1.0),), unknowns=SimpleNamespace(effects=()))
+    without = cast(Estimate, SimpleNamespace(problem=problem))
+    values = {} if cycles is None else {"ripple_voltage": 0.1, "ripple_cycles": cycles, "ripple_phase": 0.0}
+    test = line("torque_ripple", 20.0, **values)
+    cast(SimpleNamespace, test.model.estimate.problem).tracks = ("the measured angles",)
+    test = replace(test, before=replace(test.before, estimate=without))
+    assert is_of_sensor(test) is sensor
+    assert asked == ([(without, ("the measured angles",), cycles)] if slot == 0.0 and cycles is not None else [])
