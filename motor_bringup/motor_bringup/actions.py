@@ -1,5 +1,6 @@
 """Programs as actions of ROS 2's launch system; the only file that knows it."""
 
+import os
 from collections.abc import Callable, Iterable, Mapping
 
 from launch import LaunchContext, LaunchDescription
@@ -14,6 +15,7 @@ from launch_ros.substitutions import ExecutableInPackage
 from motor_bringup.argument import Argument
 from motor_bringup.program import Program, Session
 from motor_model.errors import MotorError
+from motor_model.program.starter import STARTER
 
 
 def described(arguments: Iterable[Argument], session: Callable[[Mapping[str, str]], Session]) -> LaunchDescription:
@@ -54,9 +56,11 @@ def _in_turn(steps: tuple[Program, ...]) -> list[Action]:
 
 
 def _process(program: Program) -> ExecuteProcess:
+    ends_with = {STARTER: str(os.getpid())}  # SIGKILL, SIGTERM and SIGHUP of a launch leave what it started behind
     if not program.node:
         executable = ExecutableInPackage(program.executable, program.package)
-        return ExecuteProcess(cmd=[executable, *program.arguments], name=program.executable, output="screen")
+        words = [executable, *program.arguments]
+        return ExecuteProcess(cmd=words, name=program.executable, output="screen", additional_env=ends_with)
     return Node(
         package=program.package,
         executable=program.executable,
@@ -65,6 +69,7 @@ def _process(program: Program) -> ExecuteProcess:
         parameters=[dict(program.parameters)] if program.parameters else [],
         remappings=list(program.remappings),
         output="screen",
+        additional_env=ends_with,
     )
 
 

@@ -17,6 +17,7 @@ from rclpy.signals import SignalHandlerOptions
 from motor_model.errors import MotorError
 from motor_model.given.mistakes import find_mistake
 from motor_model.program.internal_error import report
+from motor_model.program.starter import read_starter, watch_starter
 from motor_ros.clocks.clock_watch import ClockWatch
 from motor_ros.graph.open_sockets import refuse_open_sockets
 from motor_ros.loopback import stay_on_this_machine
@@ -66,18 +67,27 @@ def check_security(environment: Mapping[str, str]) -> None:
 class Interrupt:
     """Becomes true at the first SIGINT, SIGTERM or SIGHUP (a terminal that is closed, unless `nohup` stands before us).
 
-    As in rclpy and rosbag2, SIGINT is heard where a script's `&` has us start with it ignored: `kill -INT` is meant.
+    Or when the launch that started us ends, however it does. As in rclpy and rosbag2, SIGINT is heard where a script's
+    `&` has us start with it ignored: `kill -INT` is meant.
     """
 
     def __init__(self) -> None:
         self.received: int | None = None  # the first signal
+        self._alone = False  # the launch that started us has ended
         for number in CAUSES:
             if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:
                 signal.signal(number, self._on_signal)
         signal.pthread_sigmask(signal.SIG_UNBLOCK, CAUSES)  # whoever started us may have held them back
+        if starter := read_starter(os.environ):
+            watch_starter(starter, self._on_starter_ended)
 
     def _on_signal(self, number: int, frame: FrameType | None) -> None:
         self.received = self.received or number
+
+    def _on_starter_ended(self) -> None:
+        if self.received is None:
+            self._alone = True
+            os.kill(os.getpid(), signal.SIGTERM)
 
     def __bool__(self) -> bool:
         return self.received is not None
@@ -89,6 +99,8 @@ class Interrupt:
     @property
     def cause(self) -> str:
         """What the first signal meant, as a clause; empty before it."""
+        if self and self._alone:
+            return "the launch that started it has ended"
         return CAUSES.get(self.received or 0, "")
 
 
@@ -148,10 +160,10 @@ def run(
     """
     if program is not None:
         answer(program, sys.argv[1:] if args is None else args)
-    interrupt = Interrupt()
     node: Node | None = None
     status = 0
     try:
+        interrupt = Interrupt()
         start_ros(args)
         node = _created(create)
         refuse_open_sockets(node)

@@ -95,3 +95,32 @@ def test_a_word_that_is_no_choice_ends_it(tmp_path: Path) -> None:
     process = started("motor", tmp_path, "plant:=toaster")
     out, _ = process.communicate(timeout=120.0)
     assert process.returncode == 1 and "toaster" in out and "emulated" in out
+
+
+def test_whatever_a_launch_starts_ends_with_it() -> None:
+    """Without the launch system: each action that starts a process names the launch to it."""
+    source = (LAUNCH.parent / "motor_bringup" / "actions.py").read_text(encoding="utf-8")
+    calls = [node for node in ast.walk(ast.parse(source)) if isinstance(node, ast.Call)]
+    starting = [
+        call for call in calls if isinstance(call.func, ast.Name) and call.func.id in ("ExecuteProcess", "Node")
+    ]
+    told = [{word.arg: ast.unparse(word.value) for word in call.keywords} for call in starting]
+    assert len(told) == 2 and all(words["additional_env"] == "ends_with" for words in told)
+    assert "ends_with = {STARTER: str(os.getpid())}" in source
+
+
+@pytest.mark.parametrize("kind", [signal.SIGKILL, signal.SIGTERM, signal.SIGHUP])
+def test_the_end_of_a_launch_alone_ends_its_nodes(tmp_path: Path, kind: int) -> None:
+    process = started("motor", tmp_path, "plant:=sim")
+    assert process.stdout is not None
+    heard = ""
+    begun = time.monotonic()
+    while "motor_control" not in heard and time.monotonic() < begun + PATIENCE:
+        heard += process.stdout.readline()
+    children = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text(encoding="ascii").split()
+    assert len(children) == 2
+    os.kill(process.pid, kind)
+    process.wait(PATIENCE)
+    while any(Path(f"/proc/{child}").exists() for child in children):
+        assert time.monotonic() < begun + 2.0 * PATIENCE
+        time.sleep(0.05)
