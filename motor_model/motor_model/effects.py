@@ -109,6 +109,8 @@ EFFECTS = (
         "coasting in the off time (coast_drive)",
         (P("coast_share", "–", 0.0, 0.0, 1.0, maximum=1.0, starts=(0.2,)),),
         of_supply=True,
+        stands_for="Viscous friction brakes a motor that coasts, too: where kv holds some that is not told apart, "
+        "coast_share reads lower by as much.",
     ),
     Effect(
         "supply_sag",

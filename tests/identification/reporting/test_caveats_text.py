@@ -169,6 +169,7 @@ def test_the_supply_that_a_log_does_not_tell_is_said_where_it_matters(
     )
     assert ("A supply of 9.6 V is assumed" in said) is (of_supply and source == "import")
     assert ("magnets saturate weakens with the current" in said) is (effect == "supply_sag")
+    assert ("brakes a motor that coasts, too" in said) is (effect == "coast_drive")
 
 
 @pytest.mark.parametrize("logged", [True, False])
