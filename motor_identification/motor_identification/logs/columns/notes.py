@@ -108,7 +108,7 @@ def miss_drive(table: Table) -> RecordingError:
     if told := _find_reference(table):
         return RecordingError(
             f"{table.path}: no column is the voltage or duty. {told} is what a controller was told, and what it gave "
-            "to the motor is not there: log that, too; or say which column it is (--voltage COL)."
+            f"to the motor is not there: log that, too; or, where {told} itself went to it, say --voltage {told}."
         )
     return RecordingError(
         f"{table.path}: no column is the voltage or duty: say which one of {_list_names(table.names)} is (--voltage "

@@ -49,6 +49,12 @@ TAILS = _row(
     "hastighet hastighed spænding spänning"
 )
 
+# How long something takes: a loop, a row. No motor is driven by it.
+DURATIONS = _row(
+    "delay dt ts period latency interval retardo retraso periodo período atraso période periode délai verzögerung "
+    "abtastzeit ritardo opóźnienie okres gecikme zpoždění"
+)
+
 # What is written to a timer, or a share by its name; a command of another name may be in volts.
 SHARES = _row(
     "duty pwm dutycycle throttle power шим 占空比 듀티 cyclique tastgrad tastverhältnis wypełnienie wypelnienie střída "

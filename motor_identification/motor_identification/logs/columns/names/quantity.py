@@ -1,6 +1,7 @@
 """Tell the quantity of a column by the words of its name and by its unit."""
 
 from motor_identification.logs.columns.vocabulary import (
+    DURATIONS,
     INPUTS,
     MOVES,
     OUTPUTS,
@@ -22,6 +23,7 @@ _PULSES = frozenset(["esc", "servo", "signal", "pwm", "throttle", "pulse", "widt
 _TESTS = frozenset(["test", "trial"])  # whose numbers are no times, however evenly they go on
 _NUMBERS = frozenset(["no", "nr", "num", "number"])
 _ROWS = frozenset(["sample", "samples", "row", "rows"])
+_LOOPS = frozenset(["loop", "cycle", "sampling", "control", "step"])
 _SENSORS = frozenset(["encoder", "enc", "qei"])
 AXES = frozenset(["yaw", "pitch", "roll"])
 _JOINT_FIELDS = frozenset(["position", "velocity", "effort"])
@@ -66,6 +68,11 @@ def _numbers_tests(words: tuple[str, ...]) -> bool:
 def may_number_rows(words: tuple[str, ...]) -> bool:
     """Whether a name may be that of the rows' numbers: `Sample`, `sample_no`."""
     return bool(_ROWS & set(words)) and set(words) <= _ROWS | _NUMBERS
+
+
+def may_be_duration(words: tuple[str, ...]) -> bool:
+    """Whether a name may be that of how long a row or a loop took, or what it waits: `dt`, `Ts`, `sample_period`."""
+    return bool(DURATIONS & set(words)) and set(words) <= DURATIONS | _ROWS | _LOOPS | WORDS[Quantity.TIME]
 
 
 def is_speed_by_words(words: tuple[str, ...]) -> bool:

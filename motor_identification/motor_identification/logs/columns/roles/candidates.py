@@ -28,3 +28,8 @@ def is_numeric(table: Table, name: str) -> bool:
 def list_unnamed(table: Table, headings: Sequence[Heading]) -> list[str]:
     """Columns whose names tell nothing, without those of nothing but zeros: a log of one step has a constant drive."""
     return [one.name for one in headings if one.quantity is None and np.any(table.numbers(one.name))]
+
+
+def stays(table: Table, name: str) -> bool:
+    """Whether a column is the same in every row."""
+    return bool(np.ptp(table.numbers(name)) == 0.0)

@@ -30,6 +30,7 @@ from motor_identification.logs.columns.roles.row_numbers import (
     FEWEST_ROWS,
     SAME_CLOCK,
     leave_out_numbers,
+    tell_duration,
     tell_number,
 )
 from motor_identification.logs.columns.roles.structs import keep_struct, times_of_struct
@@ -63,7 +64,8 @@ def find_roles(table: Table, said: Said) -> Roles:
     Raises:
         RecordingError: a column is not there, or which one is meant cannot be told: the sentence asks for it.
     """
-    headings = [tell_number(table, read_heading(name)) for name in table.names if is_numeric(table, name)]
+    named = [read_heading(name) for name in table.names if is_numeric(table, name)]
+    headings = [tell_duration(table, tell_number(table, heading)) for heading in named]
     edges = None if said.time or said.steady else find_edge_times(table, headings, said)
     time = said.time or (edges[0] if edges else None)
     if not time and not said.steady:
@@ -83,8 +85,8 @@ def find_roles(table: Table, said: Said) -> Roles:
     pairs = said.motors or _pairs(table, free, said, time)
     pairs, findings = _of_one_shaft(table, pairs, free, said, time)
     supply = said.supply or find_supply_column(table, free, pairs)
-    named = {pair.voltage for pair in pairs} | {pair.motion for pair in pairs} | {supply}
-    currents = [one.name for one in free if one.quantity is Quantity.CURRENT and one.name not in named]
+    taken = {pair.voltage for pair in pairs} | {pair.motion for pair in pairs} | {supply}
+    currents = [one.name for one in free if one.quantity is Quantity.CURRENT and one.name not in taken]
     return Roles(
         time,
         pairs,

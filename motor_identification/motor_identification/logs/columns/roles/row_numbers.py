@@ -1,4 +1,4 @@
-"""Tell columns that number the rows, as programs write before each, from those of a motor."""
+"""Tell columns that number the rows, as programs write before each, or say how long each took, from a motor's."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -6,8 +6,9 @@ from dataclasses import replace
 import numpy as np
 
 from motor_identification.logs.columns.clock import read_clock, runs_forward
-from motor_identification.logs.columns.heading import Heading
-from motor_identification.logs.columns.names.quantity import may_number_rows
+from motor_identification.logs.columns.heading import Heading, read_heading
+from motor_identification.logs.columns.names.path import find_field
+from motor_identification.logs.columns.names.quantity import may_be_duration, may_number_rows
 from motor_identification.logs.columns.vocabulary import Quantity
 from motor_identification.logs.correlation import correlate
 from motor_identification.logs.csv.table import Table
@@ -25,6 +26,19 @@ def tell_number(table: Table, heading: Heading) -> Heading:
         return heading
     steps = np.diff(table.numbers(heading.name))
     return replace(heading, quantity=Quantity.OTHER) if np.mean(steps == 1.0) > MOSTLY_ON else heading
+
+
+def tell_duration(table: Table, heading: Heading) -> Heading:
+    """A heading, of OTHER where its column is how long each row took by its name: `dt`, `Ts`, and `MotorDC.delay`.
+
+    What goes on from row to row are times under such a name.
+    """
+    words = read_heading(find_field(heading.name) or heading.name).words
+    if heading.quantity not in (None, Quantity.TIME) or not may_be_duration(words):
+        return heading
+    values = read_clock(table, heading.name)
+    goes_on = len(values) > 1 and bool(np.all(np.diff(values) >= 0.0)) and values[-1] > values[0]
+    return heading if goes_on or runs_forward(values) else replace(heading, quantity=Quantity.OTHER)
 
 
 def leave_out_numbers(table: Table, headings: Sequence[Heading], time: str | None, timed: bool) -> list[Heading]:

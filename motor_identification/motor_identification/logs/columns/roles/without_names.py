@@ -10,7 +10,7 @@ from motor_identification.logs.columns.heading import Heading
 from motor_identification.logs.columns.motion.movement import is_encoders_angle
 from motor_identification.logs.columns.motion.speed_beside import FEWEST_CHANGES
 from motor_identification.logs.columns.notes import ask_drive, miss_drive, miss_motion
-from motor_identification.logs.columns.roles.candidates import list_unnamed
+from motor_identification.logs.columns.roles.candidates import list_unnamed, stays
 from motor_identification.logs.columns.said import Pair
 from motor_identification.logs.columns.vocabulary import MOVES, Quantity
 from motor_identification.logs.csv.table import Table
@@ -35,6 +35,10 @@ def pair_by_behaviour(table: Table, headings: Sequence[Heading], time: str | Non
         if len(unnamed) == 1 or (len(unnamed) == 2 and find_position(table, unnamed, time)):
             raise miss_drive(table)
         raise ask_drive(table, unnamed or table.names)
+    if stays(table, drive) and any(
+        one.quantity is Quantity.REFERENCE and not stays(table, one.name) for one in headings
+    ):
+        raise miss_drive(table)  # what stays makes nothing follow what changes
     return Pair("", drive, position)  # what drives changes in fewer rows, and to fewer values
 
 

@@ -90,3 +90,17 @@ def test_rows_between_the_counts_of_a_slow_motor_are_no_standstill(rows: int, st
             find_roles(stepped, Said())
     else:
         assert find_roles(stepped, Said()).pairs[0].voltage == "VOLT"
+
+
+def test_what_stays_drives_nothing_where_something_else_changes() -> None:
+    """A loop's delay, or a supply, beside what was put out; what is called a reference is asked about by its name."""
+    stays, late = np.full(200, 16.0), 10.0 + np.sin(9.0 * TIME)
+    for name in ("delay", "x"):
+        log = columns(**{"Rig.ref": 20.0 * DRIVE + 100.0, "Rig.out": FOLLOWS, f"Rig.{name}": stays})
+        with pytest.raises(RecordingError, match=r"is the voltage or duty\. .* say --voltage Rig\.ref\.$"):
+            find_roles(log, Said())
+        assert find_roles(log, Said(voltage="Rig.ref")).pairs == (Pair("", "Rig.ref", "Rig.out"),)
+    with pytest.raises(RecordingError, match=r"say --voltage ref\.$"):
+        find_roles(columns(t=TIME, ref=DRIVE, speed=FOLLOWS, dt=late), Said())
+    both = find_roles(columns(t=TIME, u=DRIVE, volts=stays, speed=FOLLOWS), Said())
+    assert both.pairs == (Pair("", "u", "speed"),)

@@ -5,7 +5,12 @@ from pathlib import Path
 import numpy as np
 
 from motor_identification.logs.columns.heading import read_heading
-from motor_identification.logs.columns.roles.row_numbers import FEWEST_ROWS, leave_out_numbers, tell_number
+from motor_identification.logs.columns.roles.row_numbers import (
+    FEWEST_ROWS,
+    leave_out_numbers,
+    tell_duration,
+    tell_number,
+)
 from motor_identification.logs.columns.vocabulary import Quantity
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.rows.drive.constant_voltage import CONSTANT
@@ -38,3 +43,12 @@ def test_numbers_by_their_name() -> None:
     table = Table(Path("log.csv"), np.arange(60), {"sample": ROWS, "Sample no": MOVED, "speed": ROWS})
     told = [tell_number(table, read_heading(name)).quantity for name in table.names]
     assert told == [Quantity.OTHER, None, Quantity.SPEED]
+
+
+def test_how_long_a_row_took_drives_nothing_and_is_no_clock() -> None:
+    """Also of a struct, `MotorDC.delay`; what goes on under such a name are times, and `dphi_dt` is a speed."""
+    same, late = np.full(60, 16.0), 10.0 + np.sin(ROWS)
+    names = {"MotorDC.delay": same, "dt": late, "sample_period": late, "Ts": TIMES, "ts": 1e3 * np.floor(ROWS / 7.0)}
+    table = Table(Path("log.csv"), np.arange(60), {**names, "dphi_dt": late, "delay speed": late})
+    told = [tell_duration(table, read_heading(name)).quantity for name in table.names]
+    assert told[:3] == [Quantity.OTHER] * 3 and Quantity.OTHER not in told[3:]
