@@ -27,6 +27,7 @@ FULL_DUTIES = (1.0, 100.0, 255.0, 1000.0, 1023.0, 4095.0, 32767.0, 65535.0)
 # and of timers of 11 bits: half of 12 bits is 2048 or 2000 to whoever writes it.
 FULL_WHERE_REACHED = (127.0, 400.0, 2047.0)
 _PER_CENT = frozenset({"duty", "power", "throttle", "output", "effort", "control"})
+HUNDRED = 100.0  # all that per cent go to, and what people write to a PWM of 8 bits
 _EFFORTS = words_of("effort esforço esforco esfuerzo")  # a share by its name alone: a control effort is a command
 _CONTROLLERS = words_of("control controle contrôle controller")
 _PULSES = (1_000.0, 2_500.0)  # [µs] the longest of a log, of which none is a share of the supply
@@ -105,12 +106,32 @@ def duty_drive(heading: Heading, values: Floats, full: float | None = None) -> D
         return Drive(1.0, f"in V (assumed, as {why}; otherwise: --full-duty, --voltage-scale)")
     if heading.quantity is None and largest < 100.0 and not np.any(values % 1.0):  # of 100 or of 255: nothing tells
         return Drive(None, f"as a duty of ±{largest:g} (assumed; otherwise: --full-duty)", largest, sure=False)
+    return _drive_by_largest(heading, values, largest)
+
+
+def _drive_by_largest(heading: Heading, values: Floats, largest: float) -> Drive:
+    """A duty as a share of the first full one that its largest does not pass."""
+    if largest == HUNDRED and not np.any(values % 1.0):
+        return _drive_of_hundred(heading, values)
     words = set(heading.words)
     for candidate in FULL_DUTIES if not _is_odd_timer(largest) else ():
         per_cent = candidate == 100.0 and np.any(values % 1.0) == 0 and largest < 100.0 and not words & _PER_CENT
         if largest <= candidate and not per_cent:
             return Drive(None, f"as a duty of ±{candidate:g} (assumed; otherwise: --full-duty)", candidate)
     return Drive(None, f"as a duty of ±{largest:g} (assumed; otherwise: --full-duty)", largest, sure=False)
+
+
+def _drive_of_hundred(heading: Heading, values: Floats) -> Drive:
+    """Whole duties that come to 100 and no further: per cent as far as can be told, and not where 100 is all there is.
+
+    One level that no name calls a share in per cent is as likely some step of a PWM of 8 bits.
+    """
+    levels = np.unique(np.abs(values[values != 0.0]))
+    why = (
+        "as a duty of ±100 (assumed, as none is larger and nothing says per cent; if full duty is 255, say "
+        "--full-duty 255: voltages are 2.55 times too large else)"
+    )
+    return Drive(None, why, HUNDRED, sure=len(levels) > 1 or bool(_PER_CENT & set(heading.words)))
 
 
 def _why_in_volts(heading: Heading, values: Floats, largest: float) -> str:

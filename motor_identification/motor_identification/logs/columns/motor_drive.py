@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from motor_identification.logs.columns.behaviour.codes import find_codes
 from motor_identification.logs.columns.cautions import ROUNDED
-from motor_identification.logs.columns.drive import Drive, duty_drive, voltage_drive
+from motor_identification.logs.columns.drive import HUNDRED, Drive, duty_drive, voltage_drive
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.roles.roles import Roles
@@ -37,7 +37,9 @@ def read_drive(table: Table, pair: Pair, roles: Roles, said: Said, notes: Notes)
         return drive, 1.0, roles.supply
     if not drive.sure:
         beside = "" if said.supply_voltage or roles.supply else " and the voltage there (--supply-voltage V)"
-        notes.questions.append((pair.voltage, f"is a duty: say what it is at full duty (--full-duty D){beside}"))
+        either = ", 100 of 100 or of 255" if full == HUNDRED else ""
+        question = f"is a duty{either}: say what it is at full duty (--full-duty D){beside}"
+        notes.questions.append((pair.voltage, question))
         return drive, 1.0, roles.supply
     if said.supply_voltage:
         why = f"{drive.why}, times {said.supply_voltage:g} V"

@@ -55,3 +55,26 @@ def test_what_stays_under_no_name_may_be_a_target(name: str, last: float, doubte
     ((_, question),) = notes.questions
     assert ("is 200 in every row; if no controller's target, but a duty of ±255 (otherwise" in question) == doubted
     assert question.endswith("say the voltage at full duty (--supply-voltage V)")
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "asked", "told"),
+    [
+        ("pwm", [0.0, 100.0], True, False),  # a step by per cent, or by 100 of 255
+        ("pwm", [0.0, 50.0, 100.0], False, True),
+        ("duty", [0.0, 100.0], False, True),
+        ("pwm", [0.0, 33.3, 100.0], False, False),  # nobody writes fractions to a register
+        ("duty [%]", [0.0, 100.0], False, False),
+    ],
+)
+def test_a_duty_that_comes_to_100_may_be_of_255(name: str, values: list[float], asked: bool, told: bool) -> None:
+    """Each voltage was 2.55 times too large in silence."""
+    table = Table(Path("log.csv"), np.arange(120), {name: np.resize(values, 120), "speed [rpm]": np.ones(120)})
+    notes, pair, roles = Notes([], []), Pair("", name, "speed [rpm]"), Roles("t", (), None, None)
+    drive, scale, _ = read_drive(table, pair, roles, Said(supply_voltage=7.4), notes)
+    assert bool(notes.questions) == asked and (asked or scale == pytest.approx(0.074))
+    assert ("if full duty is 255, say --full-duty 255: voltages are 2.55" in drive.why) == (asked or told)
+    if asked:
+        assert "100 of 100 or of 255: say what it is at full duty (--full-duty D)" in notes.questions[0][1]
+    said = read_drive(table, pair, roles, Said(supply_voltage=7.4, full_duty=255.0), Notes([], []))
+    assert said[1] == pytest.approx(7.4 / 255.0)
