@@ -17,6 +17,7 @@ WRONG = (
 )
 LATTICE = "Every speed{} is a multiple of {} rad/s ({} deg/s): {} counts a turn over {} ms are assumed."
 BY_ROWS = ", by the length of its row beside the usual one,"
+SOME_BY_ROWS = ", in some recordings by the length of its row beside the usual one,"
 FEW = "There are too few speeds to tell their noise: {} rad/s is assumed."
 ANGLE = "The angle has white noise of {} rad, more than a count: it is taken from sample to sample."
 AVERAGED = "The angle has white noise of {} rad, far more than the motion of a row: it is averaged over {} rows."
@@ -54,19 +55,26 @@ def describe_speed_sensors(sensors: Sequence[tuple[SpeedSensor, bool]]) -> str:
     if wrong:
         parts.append(WRONG.format(wrong, wrong + sum(len(sensor.row) for sensor, _ in sensors)))
     even, by_rows = ([one for one in counted if (one.lengths is None) == is_even] for is_even in (True, False))
-    for some, text in ((even, ""), (by_rows, BY_ROWS)):
-        if some:
-            numbers = (
-                _span((one.step for one in some), "{:.4g}"),
-                _span((degrees(one.step) for one in some), "{:.4g}"),
-                _span((one.edges_per_revolution for one in some), "{:,}"),
-                _span((one.window * 1e3 for one in some), "{:.4g}"),
-            )
-            parts.append(LATTICE.format(text, *numbers))
+    if even and by_rows and _number_lattice(even) == _number_lattice(by_rows):
+        parts.append(LATTICE.format(SOME_BY_ROWS, *_number_lattice(counted)))
+    else:
+        parts.extend(
+            LATTICE.format(text, *_number_lattice(some)) for some, text in ((even, ""), (by_rows, BY_ROWS)) if some
+        )
     for some, text in ((told, WHITE), (few, FEW)):
         if some:
             parts.append(text.format(_span((one.sigma for one in some), "{:.2g}")))
     return " ".join(parts)
+
+
+def _number_lattice(sensors: Sequence[SpeedSensor]) -> tuple[str, ...]:
+    """The numbers of the sentence on a lattice, each as it is shown: rad/s, deg/s, counts a turn, ms."""
+    return (
+        _span((one.step for one in sensors), "{:.4g}"),
+        _span((degrees(one.step) for one in sensors), "{:.4g}"),
+        _span((one.edges_per_revolution for one in sensors), "{:,}"),
+        _span((one.window * 1e3 for one in sensors), "{:.4g}"),
+    )
 
 
 def _describe_angles(recordings: Sequence[Recording]) -> str:

@@ -78,3 +78,15 @@ def test_what_tells_how_speeds_were_made_is_known_by_its_words() -> None:
     for one in (sensor(step=0.1), sensor(sigma=0.1), sensor(sigma=0.1, rows=14), sensor(frame=0.02)):
         assert tells_of_speeds(said(one))
     assert not tells_of_speeds(ANGLE) and not tells_of_speeds("Something else.")
+
+
+def test_one_lattice_is_told_once_where_only_some_recordings_have_uneven_rows() -> None:
+    """Two bags of one log, of which one was even: the sentence came twice."""
+    even, by_rows = sensor(step=0.1121997), replace(sensor(step=0.1121997), lengths=np.ones(100))
+    once = said(even, by_rows)
+    assert once == (
+        "Every speed, in some recordings by the length of its row beside the usual one, is a multiple of 0.1122 rad/s "
+        "(6.429 deg/s): 2,800 counts a turn over 20 ms are assumed."
+    )
+    assert tells_of_speeds(once)
+    assert said(even, replace(by_rows, step=0.2)).count("Every speed") == 2

@@ -134,6 +134,7 @@ def _read_motion(
 ) -> tuple[Kind, str, Said]:
     """Read kind and unit of the column of motion, and how far a unit of a slide is taken to go; cautions and notes."""
     kind, unit = read_motion(table, pair, said, rows.spacing, stamps, notes)
+    length = ""
     if unit.name in LENGTHS and said.units_per_revolution is None and said.edges_per_revolution is None:
         length = LENGTHS[unit.name][0]
         far = f"1 {length} is taken for 1 rad, and V·s/rad are V·s/{length}; otherwise: --units-per-revolution"
@@ -146,6 +147,11 @@ def _read_motion(
         caution_no_means(table, pair, notes)
     why = f" ({unit.why})" if unit.why else ""
     notes.findings.append(f"Motion{_whose(pair)}: {pair.motion}, a {kind.value} in {unit.name or '?'}{why}{instead}.")
+    if length:
+        notes.findings.append(
+            f"Reports on it then say rad for {length}, rad/s for {length}/s, and count per turn what {tau:.4g} "
+            f"{length} have."
+        )
     if rows.time is None and not said.steady:
         _ask_for_times(table, pair, kind, notes)
     return kind, unit.name or ASKED.get(kind, ("count",))[0], said

@@ -69,6 +69,10 @@ def test_a_length_without_a_turn_is_one_radian(unit: str, said: float | None, tu
     line = f"1 {length} is taken for 1 rad, and V·s/rad are V·s/{length}; otherwise: --units-per-revolution"
     assert made.units_per_revolution == turn and notes.questions == []
     assert (line in notes.findings[1]) == (said is None)
+    reports = (
+        f"Reports on it then say rad for {length}, rad/s for {length}/s, and count per turn what 6.283 {length} have."
+    )
+    assert (reports in notes.findings) == (said is None)
 
 
 def test_milliamperes() -> None:
