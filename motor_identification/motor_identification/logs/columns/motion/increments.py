@@ -5,6 +5,7 @@ from numpy.typing import NDArray
 
 from motor_identification.logs.columns.heading import read_heading
 from motor_identification.logs.columns.motion.movement import guess_kind
+from motor_identification.logs.columns.names.quantity import are_counts_per_row
 from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.columns.vocabulary import Quantity, words_of
@@ -35,7 +36,10 @@ def count_anew(table: Table, pair: Pair, said: Said, notes: Notes) -> bool:
     if said.increments is not None:
         return said.increments
     why, heading = "", read_heading(pair.motion)
-    if _PER_ROW & set(heading.words) or heading.quantity is Quantity.SPEED:  # counts that are called a speed
+    if (
+        _is_per_row(heading.words, table.numbers(pair.motion), table.numbers(pair.voltage))
+        or heading.quantity is Quantity.SPEED
+    ):  # counts that are called a speed
         why = "by its name"
     elif find_wrap(table.numbers(pair.motion), "count", said.edges_per_revolution):
         return False  # where an angle begins again, and no speed does
@@ -44,6 +48,16 @@ def count_anew(table: Table, pair: Pair, said: Said, notes: Notes) -> bool:
     if why:
         notes.findings.append(f"{pair.motion} counts anew in every row ({why}; otherwise: --no-increments): summed up.")
     return bool(why)
+
+
+def _is_per_row(words: tuple[str, ...], values: Floats, drive: Floats) -> bool:
+    """Whether a name says that counts are those of one row: `delta_counts`, `ticks_per_sample`, and `d_enc`.
+
+    A single letter is believed where its numbers forget, as no counts do that go on.
+    """
+    if _PER_ROW & set(words) or are_counts_per_row(words):
+        return True
+    return words[:1] == ("d",) and guess_kind(values, drive) is Kind.SPEED
 
 
 def _follow_drive(values: Floats, drive: Floats, notes: Notes, name: str) -> bool:

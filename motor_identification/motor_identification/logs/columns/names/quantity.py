@@ -37,8 +37,8 @@ def tell_quantity(words: tuple[str, ...], unit: str) -> Quantity | None:
         for kind, known in WORDS.items()
         if known & set(words) and not (kind is Quantity.REFERENCE and _is_side(words))
     ]
-    if _is_joint(words):
-        told.remove(Quantity.OTHER)
+    if _is_joint(words) or are_counts_per_row(words):
+        told = [kind for kind in told if kind is not Quantity.OTHER]
     if _is_duty_whatever_its_unit(words, unit, told):
         return Quantity.DUTY
     by_unit = UNITS[unit][0] if unit else None
@@ -73,6 +73,15 @@ def may_number_rows(words: tuple[str, ...]) -> bool:
 def may_be_duration(words: tuple[str, ...]) -> bool:
     """Whether a name may be that of how long a row or a loop took, or what it waits: `dt`, `Ts`, `sample_period`."""
     return bool(DURATIONS & set(words)) and set(words) <= DURATIONS | _ROWS | _LOOPS | WORDS[Quantity.TIME]
+
+
+def are_counts_per_row(words: tuple[str, ...]) -> bool:
+    """Whether a name is that of the counts of each row: `ticks_per_sample`, `counts_per_loop`."""
+    return bool(
+        words[-2:-1] == ("per",)
+        and words[-1] in _ROWS | _LOOPS | {"period", "interval"}
+        and WORDS[Quantity.COUNT] & set(words[:-2])
+    )
 
 
 def is_speed_by_words(words: tuple[str, ...]) -> bool:

@@ -35,6 +35,8 @@ def _taken_apart(word: str) -> tuple[str, ...]:
         return (word,)
     if word[0] in "lr" and word[1:] in _MOTIONS:  # Lspeed beside Rspeed; RPWM and LPWM may be one motor's two ways
         return (word[0], word[1:])
+    if word[0] == "d" and word[1:] in WORDS[Quantity.COUNT]:  # dticks, denc: how many since the row before
+        return (word[0], word[1:])
     if word.endswith("dot") and word[:-3] in WORDS[Quantity.POSITION]:  # thetadot
         return (word[:-3], "dot")
     if found := tuple(_WRITTEN_TOGETHER.findall(word)):

@@ -22,6 +22,12 @@ RATE = np.rint(np.convolve(DRIVE, np.exp(-np.arange(60) / 9.0) / 3.0)[: len(DRIV
         ("ticks", FAST, None, True),
         ("ticks", np.cumsum(RATE), None, False),
         ("delta_ticks", np.cumsum(RATE), None, True),
+        ("enc_delta", RATE, None, True),
+        ("ticks_per_sample", RATE, None, True),
+        ("counts_per_loop", RATE, None, True),
+        ("dticks", RATE, None, True),
+        ("d_enc", RATE, None, True),
+        ("d_enc", np.cumsum(RATE), None, False),  # one letter is believed where the numbers say so, too
         ("velL", np.cumsum(RATE), None, True),
         ("velL", RATE, False, False),
         ("ticks", RATE, False, False),

@@ -14,6 +14,9 @@ from motor_identification.logs.columns.names.words import find_device, find_side
         ("Motordrehzahl", ("motor", "drehzahl")),
         ("实际转速", ("实际", "转速")),
         ("Lspeed", ("l", "speed")),
+        ("dticks", ("d", "ticks")),
+        ("dEncoder", ("d", "encoder")),
+        ("dutycount", ("dutycount",)),
         ("lap", ("lap",)),  # no side of anything
         ("supply mV", ("supply", "mv")),
         ("ωref", ("ω", "ref")),
