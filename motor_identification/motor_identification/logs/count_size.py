@@ -11,7 +11,7 @@ from math import ceil, floor, log10, pi
 
 import numpy as np
 
-from motor_identification.logs.form import CsvForm
+from motor_identification.logs.form import UNITS, CsvForm, Kind
 from motor_identification.logs.position_lattice import Lattice, find_position_lattice
 from motor_identification.logs.signals import Floats
 from motor_identification.sensor.white_noise import estimate_white_noise
@@ -39,6 +39,12 @@ OFF_WHOLE, OFF_SHARE = 0.02, 2e-5
 MEANT, AS_IT_WAS = 0.12, 1e-3  # of a row, by which it is longer than the one that was meant: at most, at least
 CLOCKS = 1e-4  # by which the crystals of two machines differ at most: no row is known better
 LAST_DIGIT = 1e-6  # of the last decimal, within which a step is it
+# What a wrong unit leaves: a step in rad/s that is a number of two digits, to so much of it, as a count's is in rpm but
+# never in rad/s; digits that rounding leaves as well are none. Or counts of a turn that are whole in another unit, and
+# by chance in so many of a hundred at most.
+ROUND_STEP, OF_ROUNDING = 1e-5, (10, 20, 25, 50, 100)
+ANY_CHANCE = 0.1
+UNITS_OF_A_TURN = ("rad/s", "deg/s", "rpm", "rev/s")
 
 
 @dataclass(frozen=True)
@@ -224,6 +230,34 @@ def doubt_counts(counts: float, period: float, step: float, digit: float) -> str
         f"{share}, were rounded, or are those of a gear's output (--gear-ratio). Log the counts, or say how long a "
         "speed was counted (--speed-window)."
     )
+
+
+def doubt_unit(unit: str, counts: float, step: float) -> str:
+    """Say that speeds may be in another unit than was said, by a step that none of theirs makes; else empty.
+
+    Args:
+        unit: that was said, of speeds.
+        counts: of a turn, by the step in that unit.
+        step: of the speeds, in that unit.
+    """
+    if unit not in UNITS_OF_A_TURN or not counts > 0.0:
+        return ""
+    mantissa = step / 10.0 ** (floor(log10(step)) - 1)
+    if unit == "rad/s" and abs(mantissa - round(mantissa)) < ROUND_STEP * mantissa:
+        if round(mantissa) in OF_ROUNDING:
+            return ""
+        return (
+            f" A count is a round {step:.3g} in rpm or deg/s, and never in rad/s, of which a turn has 2π: check --unit."
+        )
+    if abs(counts - round(counts)) <= OFF_WHOLE + OFF_SHARE * counts:
+        return ""
+    sizes = UNITS[Kind.SPEED]
+    others = {one: counts * (sizes[unit] or 1.0) / (sizes[one] or 1.0) for one in UNITS_OF_A_TURN if one != unit}
+    near = {one: OFF_WHOLE + OFF_SHARE * many for one, many in others.items()}
+    whole = [one for one, many in others.items() if abs(many - round(many)) <= near[one] and many >= FEWEST_COUNTS]
+    if len(whole) != 1 or 2.0 * near[whole[0]] > ANY_CHANCE:
+        return ""
+    return f" In {whole[0]} it would be {round(others[whole[0]])}: check --unit."
 
 
 def doubt_window(counts: float, window: float, held: int) -> str:

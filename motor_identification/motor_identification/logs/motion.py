@@ -5,7 +5,15 @@ from math import inf, pi, tau
 
 import numpy as np
 
-from motor_identification.logs.count_size import AGREE_SPEED, agree_on_edges, count_size, doubt_counts, doubt_window
+from motor_identification.logs.columns.heading import read_heading
+from motor_identification.logs.count_size import (
+    AGREE_SPEED,
+    agree_on_edges,
+    count_size,
+    doubt_counts,
+    doubt_unit,
+    doubt_window,
+)
 from motor_identification.logs.form import LENGTHS, CsvForm, Kind
 from motor_identification.logs.position_lattice import LEAST_LEVELS, ON_GRID, printed_digit
 from motor_identification.logs.rows.bursts import cut_stalls
@@ -195,6 +203,7 @@ def _about_count(form: CsvForm, signals: Signals, edges: int, window: float) -> 
             f"Values are multiples of {step / unit:.4g} {form.unit}{new}: one count within {within} if the encoder has "
             f"{counts:.5g} per revolution (assumed; otherwise: --edges-per-revolution)."
             f"{doubt_counts(counts, frame or window, step / unit, printed_digit(signals.motion))}"
+            f"{'' if read_heading(form.motion).unit else doubt_unit(form.unit, counts, step / unit)}"
             f"{'' if frame or form.speed_window else doubt_window(counts, window, _count_held_rows(signals))}"
         )
     coarse = find_lattice(signals.motion)

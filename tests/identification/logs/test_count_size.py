@@ -7,7 +7,7 @@ from math import radians
 import numpy as np
 import pytest
 
-from motor_identification.logs.count_size import FEWEST_COUNTS, FINE, count_size, doubt_counts, doubt_window
+from motor_identification.logs.count_size import FEWEST_COUNTS, FINE, count_size, doubt_counts, doubt_unit, doubt_window
 from motor_identification.logs.form import CsvForm, Kind
 from motor_model.errors import RecordingError
 from motor_model.gearing.gear import edge_angle, exact_gear
@@ -153,6 +153,22 @@ def test_counts_that_are_no_whole_ones_are_doubted(
 )
 def test_counts_within_what_decimals_and_clocks_leave_are_not(counts: float, period: float, doubted: bool) -> None:
     assert bool(doubt_counts(counts, period, 0.7272, 1e-4)) is doubted
+
+
+@pytest.mark.parametrize(
+    ("unit", "counts", "step", "said"),
+    [
+        ("rpm", 687.6, 4.363, "In rad/s it would be 72: check --unit."),
+        ("rad/s", 4189.4, 1.5, "A count is a round 1.5 in rpm or deg/s"),  # in rows of 1 ms that a crystal leaves open
+        ("rad/s", 628.3185, 0.5, ""),  # as rounding to halves leaves
+        ("rad/s", 432.0, 1.45444, ""),
+        ("rad/s", 432.3, 1.45343, ""),  # whole in no other unit either
+        ("rpm", 687.9, 4.361, ""),
+        ("m/s", 687.6, 4.363, ""),
+    ],
+)
+def test_a_unit_is_doubted_by_a_step_that_it_does_not_make(unit: str, counts: float, step: float, said: str) -> None:
+    assert (said in doubt_unit(unit, counts, step)) if said else doubt_unit(unit, counts, step) == ""
 
 
 def test_a_window_is_doubted_where_speeds_stay_for_more_rows() -> None:
