@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from motor_identification.logs.columns.drive import drives
 from motor_identification.logs.columns.heading import Heading, read_heading
-from motor_identification.logs.columns.vocabulary import Quantity, words_of
+from motor_identification.logs.columns.vocabulary import MOVES, Quantity, words_of
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.rows.drive.constant_voltage import CONSTANT
 from motor_identification.logs.rows.row_times import ROW_TIMES
@@ -66,7 +67,9 @@ def ask_drive(table: Table, candidates: Sequence[str]) -> RecordingError:
             f"{asked} {told} is what a controller was told: where what it gave to the motor is none of them, log that, "
             "too."
         )
-    return RecordingError(f"{asked} Where it is none of them, as in a log of one step: --constant-voltage V.")
+    moves = any(read_heading(name).quantity in MOVES for name in table.names)
+    motion = "" if moves else " Say which is the motion, too: --speed, --position or --count COL."
+    return RecordingError(f"{asked} Where it is none of them, as in a log of one step: --constant-voltage V.{motion}")
 
 
 def _refuse_other_data(table: Table) -> RecordingError | None:
@@ -110,8 +113,11 @@ def miss_drive(table: Table) -> RecordingError:
             f"{table.path}: no column is the voltage or duty. {told} is what a controller was told, and what it gave "
             f"to the motor is not there: log that, too; or, where {told} itself went to it, say --voltage {told}."
         )
+    headings = [read_heading(name) for name in table.names if name not in (ROW_TIMES, CONSTANT)]
+    able = [one.name for one in headings if one.quantity in (None, Quantity.OTHER) or drives(one)]
+    offered = _list_names(able or table.names)
     return RecordingError(
-        f"{table.path}: no column is the voltage or duty: say which one of {_list_names(table.names)} is (--voltage "
+        f"{table.path}: no column is the voltage or duty: say which one of {offered} is (--voltage "
         "COL), or --constant-voltage V for a log of one step."
     )
 

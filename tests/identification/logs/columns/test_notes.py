@@ -96,3 +96,13 @@ def test_a_table_of_something_else_is_said_to_be_no_motors_log() -> None:
     assert "which column" in asked("date", "open", "high", "low", "speed"), "one of a motor's"
     weather = Table(Path("w.csv"), np.arange(2), {name: np.ones(2) for name in ("tavg", "prcp", "pres")})
     assert "no motor's log" in str(miss_drive(weather))
+
+
+def test_only_columns_that_may_drive_are_offered_and_the_motion_is_asked_for_at_once() -> None:
+    def log(*names: str) -> Table:
+        return Table(Path("log.csv"), np.arange(2), {name: np.arange(2.0) for name in names})
+
+    assert "say which one of x is (--voltage COL)" in str(miss_drive(log("time [ms]", "speed [rpm]", "x")))
+    motion = "Say which is the motion, too: --speed, --position or --count COL."
+    assert str(ask_drive(log("column 1", "column 2"), ["column 1", "column 2"])).endswith(motion)
+    assert motion not in str(ask_drive(log("x", "y", "rpm"), ["x", "y"]))
