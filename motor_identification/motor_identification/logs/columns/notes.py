@@ -8,7 +8,7 @@ import numpy as np
 
 from motor_identification.logs.columns.drive import drives
 from motor_identification.logs.columns.heading import Heading, read_heading
-from motor_identification.logs.columns.vocabulary import MOVES, Quantity, words_of
+from motor_identification.logs.columns.vocabulary import MOVES, WORDS, Quantity, words_of
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.rows.drive.constant_voltage import CONSTANT
 from motor_identification.logs.rows.row_times import ROW_TIMES
@@ -109,9 +109,13 @@ def miss_drive(table: Table) -> RecordingError:
     if complaint := _refuse_other_data(table):
         return complaint
     if told := _find_reference(table):
+        heading = read_heading(told)
+        of_motion = bool(heading.unit) or any(WORDS[kind] & set(heading.words) for kind in MOVES)  # setpoint_rpm
+        itself = f"where {told} itself went to it, say --voltage {told}"
         return RecordingError(
             f"{table.path}: no column is the voltage or duty. {told} is what a controller was told, and what it gave "
-            f"to the motor is not there: log that, too; or, where {told} itself went to it, say --voltage {told}."
+            "to the motor is not there: log that, too; or "
+            f"{'say which column it is (--voltage COL)' if of_motion else itself}."
         )
     headings = [read_heading(name) for name in table.names if name not in (ROW_TIMES, CONSTANT)]
     able = [one.name for one in headings if one.quantity in (None, Quantity.OTHER) or drives(one)]

@@ -167,7 +167,7 @@ _SPELLINGS = {
     "mV": "mv millivolt millivolts",
     "A": "a amp amps ampere",
     "mA": "ma",
-    "%": "% pct percent",
+    "%": "% pct percent percentage porcentaje porcentagem pourcentage percentuale prozent procent persen yüzde процент",
     "rad/s": "rad/s rad/seg рад/с рад_с rad/sec rads rads/s radps rad.s-1 rad_s rad_sec",
     "deg/s": "deg/s grados/seg град/с град_с deg/sec °/s grad/s grados/s graus/s dps degps degrees/s deg_s deg_sec",
     "rpm": (

@@ -241,3 +241,8 @@ def test_earlier_quantities_win() -> None:
 )
 def test_names_of_joint_states(name: str, joint: bool) -> None:
     assert is_of_joint_states(read_heading(name)) == joint
+
+
+@pytest.mark.parametrize("name", ["PWM_porcentaje", "duty (percentage)", "Stellwert Prozent", "pwm_pct"])
+def test_per_cent_in_other_words(name: str) -> None:
+    assert (read_heading(name).unit, read_heading(name).quantity) == ("%", Quantity.DUTY)

@@ -106,3 +106,11 @@ def test_only_columns_that_may_drive_are_offered_and_the_motion_is_asked_for_at_
     motion = "Say which is the motion, too: --speed, --position or --count COL."
     assert str(ask_drive(log("column 1", "column 2"), ["column 1", "column 2"])).endswith(motion)
     assert motion not in str(ask_drive(log("x", "y", "rpm"), ["x", "y"]))
+
+
+@pytest.mark.parametrize(
+    ("name", "offered"), [("ref", True), ("setpoint", True), ("setpoint_rpm", False), ("target speed", False)]
+)
+def test_a_set_point_of_a_motion_is_not_offered_as_the_voltage(name: str, offered: bool) -> None:
+    asked = str(miss_drive(Table(Path("log.csv"), np.arange(3), {"t": np.arange(3), name: np.ones(3)})))
+    assert asked.endswith(f"say --voltage {name}." if offered else "or say which column it is (--voltage COL).")
