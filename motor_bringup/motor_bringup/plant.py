@@ -8,8 +8,13 @@ from motor_bringup.files import config, named
 from motor_bringup.parameter_file import parameters_for, parameters_told
 from motor_bringup.program import Program, Value
 from motor_model.model_file import load
+from motor_model.parameters import paper_motor
 
-WORKED_OUT = ("name", "max_voltage")  # from the namespace and the model file; a user's parameter file prevails
+WORKED_OUT = (
+    "name",
+    "max_voltage",
+    "supply_voltage",
+)  # from the namespace and the model file; a user's parameter file prevails
 
 
 def plant_programs(values: Mapping[str, str]) -> tuple[Program, ...]:
@@ -67,10 +72,15 @@ def _emulated(values: Mapping[str, str]) -> tuple[Program, ...]:
     number = values.get("board_id", "")
     wanted: dict[str, Value] = {"board_id": number} if number else {}
     flashed: dict[str, Value] = {"board_id": int(number)} if number.isdecimal() else {}
-    return (
-        Program("motor_driver", "motor_driver", parameters={"port": link, **wanted, **_full_duty(values)}),
-        Program("motor_board", "board_emulator", parameters={"link": link, **flashed, **model_of(values)}),
-    )
+    board = Program("motor_board", "board_emulator", parameters={"link": link, **flashed, **model_of(values)})
+    told = {"port": link, **wanted, **_full_duty(values), **_supply_of(_placed(board, values))}
+    return Program("motor_driver", "motor_driver", parameters=told), board
+
+
+def _supply_of(board: Program) -> dict[str, Value]:
+    """Tell the driver of an emulated board the supply that is on its bridge, where the board does not measure it."""
+    model, measured = str(board.parameters["model"]), board.parameters["supply_voltage"]
+    return {} if measured else {"supply_voltage": (load(model) if model else paper_motor()).max_voltage}
 
 
 _PLANTS: dict[str, Callable[[Mapping[str, str]], tuple[Program, ...]]] = {

@@ -99,6 +99,17 @@ class Driver:
         return self._readout.highest_supply if self._readout else 0.0
 
     @property
+    def measures_supply(self) -> bool:
+        """Whether that is, or was, what the board measures."""
+        return self._readout is not None and self._readout.measured
+
+    @property
+    def assumed_supply(self) -> float:
+        """[V] that full duty is taken for, where the board measures no supply and none was said; 0: it is known."""
+        unknown = self._readout is not None and self._readout.measures_none and not self.config.supply_voltage
+        return self.config.max_voltage if unknown else 0.0
+
+    @property
     def encoder_errors(self) -> int:
         """Transitions of both encoder lines at once, which no motion makes."""
         return self._readout.errors if self._readout else 0

@@ -29,7 +29,7 @@ class MotorDriver(Node):
         values = declare(self, ROWS)
         self._driver = Driver(config_of(values))
         self._was = status.tally(self._driver, time.monotonic_ns())
-        self._said = ""
+        self._said = self._assumed = ""
         self._runs_begun = 0
         self._stamp = 0  # [ns] ROS time of the latest sample
         period = 1.0 / float(values["sample_rate"])
@@ -132,7 +132,11 @@ class MotorDriver(Node):
     def _on_second(self) -> None:
         now = time.monotonic_ns()
         self._say()
-        self._plant.diagnose(self._said, status.values(self._driver, self._was, now))
+        if (assumed := status.assumption(self._driver)) and assumed != self._assumed:
+            self._assumed = assumed
+            self.get_logger().warning(assumed)
+        told = " ".join(filter(None, (self._said, status.risk(self._driver))))
+        self._plant.diagnose(told, status.values(self._driver, self._was, now))
         self._was = status.tally(self._driver, now)
 
 

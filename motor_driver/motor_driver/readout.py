@@ -31,7 +31,8 @@ class Readout:
         self._slot = edge_angle(config.edges_per_revolution, config.gear)
         self.errors = 0  # transitions of both encoder lines at once, over all resets
         self.supply = config.full_voltage  # [V] at full duty
-        self._measured = False
+        self.measured = False  # it is that of the board's converter
+        self.measures_none = False  # the board has said that it does not measure its supply
         self.highest_supply = 0.0  # [V] that it may have, where what is measured is not to be believed
         self._usual_supply = 0.0  # [V] the most that was measured, smoothed without a jump: a spike is no supply
         self.clock = BoardClock(board.tick_ns)
@@ -62,6 +63,7 @@ class Readout:
         self._errors = frame.errors
         if frame.edge_valid:
             self._edge_time = self.clock.before(frame.edge_time)
+        self.measures_none = frame.supply == NOT_MEASURED
         self._follow_supply(frame.supply)
         voltage = self._motor * frame.duty / self._top * self.supply
         period = frame.edge_period * self._tick / 1e9
@@ -98,9 +100,9 @@ class Readout:
             self._usual_supply += share * max(millivolts * 1e-3 - self._usual_supply, 0.0)
             usual = max(self._config.supply_voltage, self._usual_supply)
             measured = max(millivolts * 1e-3, LEAST * usual)
-            known = self._measured and measured <= RISE * self.supply
+            known = self.measured and measured <= RISE * self.supply
             self.supply += (share if known else 1.0) * (measured - self.supply)
-            self._measured = True
+            self.measured = True
             self.highest_supply = usual if millivolts * 1e-3 < LEAST * usual else 0.0
 
     def duty(self, voltage: float) -> int:

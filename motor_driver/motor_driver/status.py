@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from motor_driver.config import Config
 from motor_driver.driver import Driver
 from motor_driver.exchange import Exchange
 from motor_driver.frames.from_board import Hello
@@ -10,6 +11,12 @@ from motor_driver.readout import LEAST
 
 LEAST_RATE = 0.95  # of the requested one
 OTHER_SUPPLY = 0.1  # of supply_voltage: more than a divider's two resistors of 5 % are off
+DEFAULT_VOLTAGE = Config().max_voltage  # [V] of whoever said nothing of the motor
+ASSUMED = (
+    "Full duty is taken for the {0:g} V of max_voltage: the board measures no supply, and supply_voltage is not set. "
+    "On a larger supply the motor gets more than is asked for, and more than max_voltage: set supply_voltage to the "
+    "supply's voltage ({0:g} if that is it)."
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,6 +69,17 @@ def connection(driver: Driver) -> str:
     )
 
 
+def assumption(driver: Driver) -> str:
+    """Say that the supply is only assumed, where max_voltage was set to another value; empty where it is known."""
+    assumed = driver.assumed_supply
+    return ASSUMED.format(assumed) if assumed not in (0.0, DEFAULT_VOLTAGE) else ""
+
+
+def risk(driver: Driver) -> str:
+    """Return that assumption where max_voltage was lowered: whoever did so to be careful is not."""
+    return assumption(driver) if driver.assumed_supply < DEFAULT_VOLTAGE else ""
+
+
 def values(driver: Driver, was: Tally, now: int) -> dict[str, str]:
     """Return the link's numbers by name and unit."""
     session, counters = driver.session, driver.counters
@@ -74,6 +92,7 @@ def values(driver: Driver, was: Tally, now: int) -> dict[str, str]:
         "achieved rate [Hz]": f"{achieved(driver, was, now):.1f}",
         "requested rate [Hz]": f"{driver.config.sample_rate:.1f}",
         "voltage at full duty [V]": f"{driver.supply:.2f}",
+        "voltage at full duty from": _source(driver),
         "ports opened": driver.openings,
         "board resets": driver.resets,
         "encoder errors": driver.encoder_errors,
@@ -108,6 +127,13 @@ def _encoder(errors: int, board: Hello | None) -> str:
         f"Both encoder lines changed at once, or too fast, {errors} times in the last second, and the counts there are "
         "lost: see the encoder's cable and supply, or count less with quadrature 2."
     )
+
+
+def _source(driver: Driver) -> str:
+    """Where the voltage at full duty comes from."""
+    if driver.measures_supply:
+        return "the board's measurement"
+    return "supply_voltage" if driver.config.supply_voltage else "max_voltage, as nobody says or measures the supply"
 
 
 def _supply(driver: Driver) -> str:

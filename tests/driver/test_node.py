@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 import rclpy
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from emulated_board import need_emulator
 from patience import PATIENCE
 from workbench import DOMAIN
@@ -22,6 +23,7 @@ from motor_ros.loopback import stay_on_this_machine
 from motor_ros.run import quick_executor
 
 Make = Callable[..., MotorDriver]
+Capture = pytest.CaptureFixture[str]
 
 
 @pytest.fixture
@@ -64,6 +66,27 @@ def test_a_port_that_nobody_looks_after_is_said(make: Make) -> None:
     assert node._driver.refusal() == NO_THREAD and node._said == ""
     node._on_second()
     assert node._said == NO_THREAD
+
+
+@pytest.mark.parametrize("most", [3.0, 24.0])
+def test_a_supply_that_is_only_assumed_is_warned_of_once(
+    make: Make, boards: Callable[..., list[LiveBoard]], most: float, tmp_path: Path, capfd: Capture
+) -> None:
+    """In the log wherever max_voltage was set, in /diagnostics where it was lowered."""
+    boards(port=0)
+    node = make(f"port:={tmp_path}/port", f"max_voltage:={most}")
+    told: list[DiagnosticArray] = []
+    node._plant._diagnostics.publish = told.append
+    work(node, lambda: node._driver.readings > 0)
+    for _ in range(3):
+        node._on_second()
+    said = f"Full duty is taken for the {most:g} V of max_voltage: the board measures no supply"
+    assert capfd.readouterr().err.count(said) == 1
+    assert (said in told[-1].status[0].message) == (most < 12.0)
+    assert most > 12.0 or told[-1].status[0].level == DiagnosticStatus.WARN
+    values = {value.key: value.value for value in told[-1].status[0].values}
+    assert values["voltage at full duty from"].startswith("max_voltage")
+    node._link.close()
 
 
 @pytest.mark.parametrize("text", ["two", "70000", "-1", "1.5"])

@@ -87,3 +87,41 @@ def test_a_supply_that_falls_to_less_than_half_of_what_it_was(make_rig: MakeRig)
     assert (
         "supply of less than 5.9 V, and it was 11.8 V" in said and "See whether the divider at A0 is connected" in said
     )
+
+
+@pytest.mark.parametrize(
+    ("most", "told", "assumed", "risky"),
+    [(3.0, 0.0, True, True), (24.0, 0.0, True, False), (12.0, 0.0, False, False), (3.0, 12.0, False, False)],
+)
+def test_who_sets_max_voltage_is_told_that_the_supply_is_only_assumed(
+    make_rig: MakeRig, most: float, told: float, assumed: bool, risky: bool
+) -> None:
+    """3 V asked for under a limit of 3 V were 12 V on a supply of 12 V that nobody measured or said."""
+    rig = make_rig(config=Config(max_voltage=most, supply_voltage=told))
+    assert status.assumption(rig.driver) == ""  # nobody knows yet whether the board measures
+    rig.plug()
+    rig.until(lambda: len(rig.readings) > 0, 1500)
+    said = f"Full duty is taken for the {most:g} V of max_voltage" if assumed else ""
+    assert status.assumption(rig.driver).startswith(said) and bool(status.assumption(rig.driver)) == assumed
+    assert status.risk(rig.driver) == (status.assumption(rig.driver) if risky else "")
+    assert (
+        f"set supply_voltage to the supply's voltage ({most:g} if that is it)" in status.assumption(rig.driver)
+    ) == assumed
+    values = status.values(rig.driver, status.tally(rig.driver, rig.now), rig.now)
+    source = "supply_voltage" if told else "max_voltage, as nobody says or measures the supply"
+    assert values["voltage at full duty from"] == source
+
+
+def test_a_supply_that_is_measured_is_not_assumed(make_rig: MakeRig) -> None:
+    """Nor while it is off, and too low to be taken for one."""
+    board = FirmwareConfig(edges_per_revolution=96, channels=2, supply_full_scale=20_000)
+    rig = make_rig(config=Config(max_voltage=3.0, single_channel=False), firmware=board)
+    rig.emulator.chip.supply(0.0)
+    rig.plug()
+    rig.until(lambda: len(rig.readings) > 10, 1500)
+    assert status.assumption(rig.driver) == ""
+    rig.emulator.chip.supply(3.0)  # of 5 V, for 20 V
+    rig.until(lambda: len(rig.readings) > 100, 1500)
+    assert status.assumption(rig.driver) == "" and rig.driver.supply == pytest.approx(12.0, rel=0.01)
+    values = status.values(rig.driver, status.tally(rig.driver, rig.now), rig.now)
+    assert values["voltage at full duty from"] == "the board's measurement"

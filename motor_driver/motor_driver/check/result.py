@@ -2,7 +2,7 @@
 
 import json
 from dataclasses import asdict, dataclass
-from math import isfinite
+from math import isfinite, isnan
 from typing import Any
 
 from motor_driver.check.check import Check
@@ -26,6 +26,7 @@ class Chosen:
 def parameters_of(check: Check, chosen: Chosen) -> dict[str, bool | int | float | str]:
     """Return the driver's parameters that this board and motor need."""
     settings, board = check.settings, check.board
+    believed = isnan(check.record.measured.supply) and not settings.supply_voltage  # nobody knows: nor shall the driver
     place = {"board_id": str(board.board_id)} if board.board_id else {"port": chosen.port}
     cures = {key: value for found in check.record.findings for key, value in found.parameters.items()}
     return {
@@ -34,7 +35,7 @@ def parameters_of(check: Check, chosen: Chosen) -> dict[str, bool | int | float 
         **_encoder_of(settings, board),
         "single_channel": board.channels == 1,
         "max_voltage": float(settings.max_voltage),
-        "supply_voltage": float(settings.supply),
+        "supply_voltage": 0.0 if believed else float(settings.supply),
         "decay": chosen.decay,
         **_sensor_of(settings),
         **({"silent_pwm": True} if chosen.silent_pwm else {}),

@@ -14,6 +14,7 @@ from motor_driver.frames.from_board import Hello
 from motor_model.sensing.supply import find_least_supply
 
 LEAST_SUPPLY, MOST_SUPPLY = 0.8, 1.1  # of the expected one: a battery that is empty, a divider of two 5 % resistors
+MORE_SUPPLY = ", as --max-voltage: if it is more, so is what the motor gets; say --supply-voltage"
 SUPPLY_TIME = 0.3  # [s] of which the mean is taken
 MORE, APART = 0.2, 0.12  # of the motor's voltage: the quicker pace above the breakaway, and above the slower one
 HARMLESS = {"wrong_counts", "unknown_counts", "no_counts"}  # the motor may be driven all the same
@@ -48,7 +49,8 @@ def _measure_supply(settings: Settings, record: Record) -> Steps[None]:
     record.measured = replace(record.measured, supply=supply)
     said = {"supply": supply, "expected": settings.supply}
     if isnan(supply):
-        record.say("supply", f"not measured by this board; {settings.supply:.3g} V are believed", UNKNOWN)
+        believed = f"not measured by this board; {settings.supply:.3g} V are believed"
+        record.say("supply", believed + ("" if settings.supply_voltage else MORE_SUPPLY), UNKNOWN)
     elif supply < find_least_supply(settings.supply):
         record.find("supply", "no_supply", **said)
     elif supply > MOST_SUPPLY * settings.supply:

@@ -39,6 +39,18 @@ def test_a_geared_encoder_that_is_counted_fourfold_is_written_as_it_was_said() -
     assert config.pwm is Pwm.SILENT and not config.single_channel
 
 
+@pytest.mark.parametrize(("told", "written", "warned"), [(0.0, 0.0, True), (9.0, 9.0, False)])
+def test_a_supply_that_nobody_measured_or_said_is_not_written_as_known(
+    told: float, written: float, warned: bool
+) -> None:
+    """Else the driver would take it for said, and would not warn of a larger one."""
+    check = SimulatedRun(Settings(max_voltage=9.0, supply_voltage=told, edges_per_revolution=96)).run()
+    values = yaml.safe_load(parameter_text(check, Chosen("p")))["/**/motor_driver"]["ros__parameters"]
+    assert values["supply_voltage"] == written
+    lines = [str(line) for line in check.record.rows if "9 V are believed" in str(line)]
+    assert len(lines) == 1 and ("say --supply-voltage" in lines[0]) == warned
+
+
 def test_a_board_with_a_number_is_found_by_it_whatever_its_port() -> None:
     run = SimulatedRun(TOLD)
     run.run()
