@@ -1,7 +1,10 @@
 """Programs as actions of ROS 2's launch system; the only file that knows it."""
 
 import os
-from collections.abc import Callable, Iterable, Mapping
+import sys
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from itertools import pairwise
+from pathlib import Path
 
 from launch import LaunchContext, LaunchDescription
 from launch.action import Action
@@ -12,7 +15,7 @@ from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 from launch_ros.substitutions import ExecutableInPackage
 
-from motor_bringup.argument import Argument
+from motor_bringup.argument import Argument, refuse_unknown
 from motor_bringup.program import Program, Session
 from motor_model.errors import MotorError
 from motor_model.program.starter import STARTER
@@ -20,6 +23,11 @@ from motor_model.program.starter import STARTER
 
 def described(arguments: Iterable[Argument], session: Callable[[Mapping[str, str]], Session]) -> LaunchDescription:
     """Return a launch file: its arguments, and the session that they make."""
+
+    def look(context: LaunchContext) -> None:
+        """Before the defaults are told, too."""
+        path = Path(getattr(context.locals, "current_launch_file_path", ""))
+        refuse_unknown(arguments, context.launch_configurations, _is_launched(path, sys.argv))
 
     def start(context: LaunchContext) -> list[Action]:
         told = {argument.name: LaunchConfiguration(argument.name).perform(context) for argument in arguments}
@@ -34,7 +42,13 @@ def described(arguments: Iterable[Argument], session: Callable[[Mapping[str, str
         )
         for argument in arguments
     ]
-    return LaunchDescription([*declared, OpaqueFunction(function=start)])
+    return LaunchDescription([OpaqueFunction(function=look), *declared, OpaqueFunction(function=start)])
+
+
+def _is_launched(path: Path, words: Sequence[str]) -> bool:
+    """Whether the words of a command line launch that file itself, by package and name or by path, and no other's."""
+    named = any(file == path.name and package in path.parts for package, file in pairwise(words))
+    return named or any(Path(word).resolve() == path.resolve() for word in words if Path(word).name == path.name)
 
 
 def _actions(session: Session) -> list[Action]:

@@ -2,8 +2,12 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from difflib import get_close_matches
 
 from motor_model.errors import MotorError
+
+MEANT, MISSPELT = 0.6, 0.85  # likeness of a name to the one that was meant; of a name that can hardly mean another one
+OF_THE_SYSTEM = ("ros_", "launch-prefix")  # names that begin so are the launch system's own
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +47,27 @@ def checked(arguments: Iterable[Argument], told: Mapping[str, str]) -> dict[str,
                 f"{', '.join(argument.choices)}."
             )
     return values
+
+
+def refuse_unknown(arguments: Iterable[Argument], told: Iterable[str], alone: bool) -> None:
+    """Refuse names that were told and are no arguments: the launch system drops them without a word.
+
+    alone: whether all that was told is meant for these arguments. Where another launch file includes this one, its own
+    arguments are among them; then only a name is refused that is nearly one of ours, which itself was not told.
+
+    Raises:
+        MotorError: a name is none of the arguments'.
+    """
+    ours, said = [argument.name for argument in arguments], list(told)
+    for name in said:
+        if name in ours or name.startswith(OF_THE_SYSTEM):
+            continue
+        near = get_close_matches(name.lower(), ours, 1, MEANT if alone else MISSPELT)
+        if alone or (near and near[0] not in said):
+            meant = f": did you mean {near[0]}?" if near else "."
+            file = " A node's parameter goes into a file, parameters:=FILE." if PARAMETERS.name in ours else ""
+            they = f"It has {', '.join(ours)}.{file}"
+            raise MotorError(f"{name}:= is no argument of this launch file, and would do nothing{meant} {they}")
 
 
 def namespace_of(values: Mapping[str, str]) -> str:

@@ -124,3 +124,49 @@ def test_the_end_of_a_launch_alone_ends_its_nodes(tmp_path: Path, kind: int) -> 
     while any(Path(f"/proc/{child}").exists() for child in children):
         assert time.monotonic() < begun + 2.0 * PATIENCE
         time.sleep(0.05)
+
+
+@pytest.mark.parametrize("name", sorted(SESSIONS))
+def test_a_misspelt_argument_is_refused_before_anything_starts(tmp_path: Path, name: str) -> None:
+    process = started(name, tmp_path, "namespce:=left")
+    out, _ = process.communicate(timeout=60.0)
+    assert (
+        process.returncode == 1 and "namespce:= is no argument of this launch file" in out and "started with" not in out
+    )
+
+
+PARENT = """
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import PushROSNamespace
+
+
+def generate_launch_description():
+    source = PythonLaunchDescriptionSource({file!r})
+    theirs = [DeclareLaunchArgument(name, default_value="x") for name in ("ports", "robot_model", "max_voltage")]
+    told = {{"port": LaunchConfiguration("ports"), "plant": "sim", **{told!r}}}
+    return LaunchDescription(
+        [*theirs, PushROSNamespace("robot"), IncludeLaunchDescription(source, launch_arguments=told.items())]
+    )
+"""
+
+
+@pytest.mark.parametrize(("told", "refused"), [({}, False), ({"parameter": "mine.yaml"}, True)])
+def test_a_launch_file_that_includes_one_has_arguments_of_its_own(
+    tmp_path: Path, told: dict[str, str], refused: bool
+) -> None:
+    """They are in the same context; only what is nearly an argument of ours is refused."""
+    file = str(LAUNCH / "motor.launch.py")
+    (tmp_path / "robot.launch.py").write_text(PARENT.format(file=file, told=told), encoding="utf-8")
+    process = started(str(tmp_path / "robot"), tmp_path, "max_voltage:=9", "ports:=mine")
+    assert process.stdout is not None
+    lines: list[str] = []
+    while process.poll() is None and "Simulating" not in "".join(lines[-1:]):
+        lines.append(process.stdout.readline())
+    process.send_signal(signal.SIGINT)
+    rest, _ = process.communicate(timeout=PATIENCE)
+    out = "".join(lines) + rest
+    assert ("parameter:= is no argument of this launch file" in out) == refused, out
+    assert ("Simulating" in out) != refused and ("started with" in out) != refused
