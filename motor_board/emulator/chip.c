@@ -4,6 +4,7 @@
 #include <simavr/avr_timer.h>
 #include <simavr/avr_uart.h>
 #include <simavr/sim_elf.h>
+#include <simavr/sim_interrupts.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -47,6 +48,20 @@ static void on_clock_start(avr_t *avr, avr_io_addr_t address, uint8_t value, voi
     if (value & 7 && !chip->clocked) {
         chip->clock_zero = avr->cycle;
         chip->clocked = 1;
+    }
+}
+
+/* A flag that is up when its interrupt is let on interrupts then. simavr only looks when the flag rises: a tick that was due
+ * while the tick before it kept itself off came a whole turn of the counter later. */
+static void on_interrupts_chosen(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param)
+{
+    (void)param;
+    avr->data[address] = value;
+    for (int i = 0; i < avr->interrupts.vector_count; i++) {
+        avr_int_vector_t *vector = avr->interrupts.vector[i];
+        if (vector->enable.reg == address && avr_regbit_get(avr, vector->raised)) {
+            avr_raise_interrupt(avr, vector); /* which does nothing where it is off, or pending already */
+        }
     }
 }
 
@@ -112,6 +127,7 @@ static void connect(struct chip *chip)
     avr_register_io_write(avr, at->enable.mode, on_register, chip);
     avr_register_io_write(avr, at->forward.mode, on_register, chip); /* of the reverse pin, too */
     avr_register_io_write(avr, at->clock_control, on_clock_start, chip);
+    avr_register_io_write(avr, at->clock_interrupts, on_interrupts_chosen, chip);
     traffic_connect(chip);
     load_connect(chip);
 }

@@ -7,7 +7,7 @@ import pytest
 from emulated_board import MS, TICK, Bench, on_each_chip
 
 from motor_board.build import FirmwareConfig
-from motor_board.emulation.chip import Hang
+from motor_board.emulation.chip import Hang, Pins
 from motor_driver.frames.codes import Board, Flag, ResetCause
 from motor_driver.frames.from_board import Hello, Pong, Telemetry
 from motor_driver.frames.from_host import Command, Configure, Enable, Identify, Ping
@@ -195,6 +195,13 @@ def test_a_program_that_hangs_while_it_boots_drives_nothing(bench: Bench, after:
     for _ in range(50):
         bench.run(10)
         assert bench.chip.pins.share == 0.0
+
+
+@on_each_chip
+def test_a_board_that_has_booted_brakes_at_once(bench: Bench) -> None:
+    """At its first tick, 5 ms later, it did, and till then the motor ran on freely."""
+    bench.run(1)
+    assert bench.chip.pins == Pins(256, 0, 0)
 
 
 def test_after_a_reset_the_output_stays_off_until_an_enable_of_this_boot(bench: Bench) -> None:

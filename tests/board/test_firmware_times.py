@@ -141,6 +141,36 @@ def test_a_storm_of_edges_holds_nothing_up(make_bench: MakeBench, channels: int,
     assert_edges_are_heard(bench, channels, fold)
 
 
+@pytest.mark.parametrize("channels", [1, 2])
+def test_zeros_at_the_line_s_full_speed_beside_a_storm_of_edges_hold_nothing_up(
+    make_bench: MakeBench, channels: int
+) -> None:
+    """The main loop has no turn for 60 ms, and the watchdog resets the board, unless edges wait for it meanwhile.
+
+    Ticks come behind one another, which an emulated chip forgot: 0 V was 33 or 66 ms late.
+    """
+    bench = start_counting(make_bench, channels, 1)
+    bench.enable()
+    bench.emulator._plan = lambda until: bench.emulator.shaft.plan(until)  # type: ignore[method-assign,assignment]
+    gaps = np.maximum(np.random.default_rng(1).exponential(16e6 / 60_000, 30_000), 8)
+    cycles = (bench.chip.cycle + np.cumsum(gaps)).astype(np.uint64)
+    falls = np.where(np.arange(len(cycles)) % 2 == 1, Line.A_FALLS if channels == 2 else 0, 0).astype(np.uint8)
+    silent = bench.chip.cycle
+    for k in range(150):
+        if k < 20:
+            bench.send(Command(128))
+            silent = bench.chip.cycle
+        else:
+            bench.chip.feed(bytes(100))  # in 2 ms: 500,000 baud
+        now = np.uint64(bench.chip.cycle)
+        near = (cycles > now) & (cycles <= now + np.uint64(4 * MS))
+        bench.chip.set_edges(int(now), Edges(cycles[near], falls[near]))
+        bench.run(2)
+        if k > 20 and bench.chip.pins.share == 0.0:
+            break
+    assert 100 * MS <= bench.chip.cycle - silent <= 106 * MS and bench.chip.resets == 0
+
+
 def feed(bench: Bench, cycles: np.ndarray, what: np.ndarray) -> None:
     """Edges on the lines, with commands meanwhile."""
     while bench.chip.cycle < cycles[-1] + MS:
