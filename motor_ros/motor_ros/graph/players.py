@@ -1,5 +1,6 @@
 """Know the nodes that play recordings: what they send, and the services they call, nobody asks for today."""
 
+import re
 from collections.abc import Iterable
 
 from rclpy.node import Node
@@ -9,6 +10,9 @@ from motor_ros.graph.publishers import Publisher, ask_of_node
 # How `ros2 bag play` and PlotJuggler's re-publisher of a loaded bag call their nodes, and what the former serves under
 # whatever name. A recording that they play asks nobody, and leaves a motor as it is at its end, or at a cursor.
 PLAYERS = "rosbag2_player", "plotjuggler"
+# How programs call their nodes that publish what they read of a bag themselves: playback_node in ROS 2's own tutorial,
+# bag_player, rosbag_replayer. The node of rqt, whose rqt_bag plays as well, is also one in which a person publishes.
+OTHERS = re.compile(r"bag\w*play|^playback_node$", re.IGNORECASE)
 SERVED = "rosbag2_interfaces/srv/"
 CALLED = (
     "{} would be called by what plays a recording ({}), which may have requests in it: call again when that has ended."
@@ -19,7 +23,12 @@ def find_players_among(node: Node, there: Iterable[Publisher]) -> set[str]:
     """Find the nodes that play recordings among those that publish, or call, by their full names."""
     names = {one.node for one in there if one.node}
     servers = _find_servers(node)  # by their services' names, of two nodes of one name, too
-    return {one for one in names if one.rpartition("/")[2] in PLAYERS or one in servers or _serves(node, one)}
+    return {one for one in names if is_player(one.rpartition("/")[2]) or one in servers or _serves(node, one)}
+
+
+def is_player(name: str) -> bool:
+    """Tell a node that plays recordings by its name, without namespace."""
+    return name in PLAYERS or OTHERS.search(name) is not None
 
 
 def _find_servers(node: Node) -> set[str]:

@@ -14,12 +14,27 @@ from workbench import Bench
 
 from motor_msgs.msg import ControlState, MotorSpeed, MotorVoltage
 from motor_ros import qos
-from motor_ros.graph.players import find_players_among
+from motor_ros.graph.players import find_players_among, is_player
 from motor_ros.graph.publishers import UNKNOWN, Publisher, list_clients
 from motor_ros.messages import time_message, voltage_message
 
 Start = Callable[..., "Popen[str]"]
 DAY = 86_400_000_000_000  # [ns]
+
+
+@pytest.mark.parametrize(
+    "name", ["bag_player", "rosbag_player", "RosbagReplayer", "simple_bag_play_node", "playback_node"]
+)
+def test_players_of_other_programs_are_known_by_their_names(name: str) -> None:
+    """A speed that one of them sent last was held for ever, as a hand's is."""
+    assert is_player(name)
+
+
+@pytest.mark.parametrize(
+    "name", ["play", "experiment", "rqt_gui_py_node_123", "teleop", "airbag", "player", "rosbag2_recorder"]
+)
+def test_what_may_be_a_hand_or_a_program_is_no_player(name: str) -> None:
+    assert not is_player(name)
 
 
 def ready(bench: Bench) -> Rig:
