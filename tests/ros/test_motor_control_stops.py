@@ -91,6 +91,24 @@ def test_references_of_a_recording_are_not_obeyed(plant: FakePlant) -> None:
     plant.wait(ask, "a fresh reference to be obeyed")
 
 
+@pytest.mark.usefixtures("process")
+def test_a_motor_that_goes_on_when_the_sender_of_a_stream_has_gone_is_said(plant: FakePlant) -> None:
+    """One reference is meant to hold, so that this does; a joystick's, or a played recording's, may not be."""
+    plant.refer(50.0)
+    for _ in range(40):
+        plant._reference.publish(Float64(data=50.0))
+        assert plant.answer(40.0).state == "running"
+    plant.node.destroy_publisher(plant._reference)
+
+    def told() -> bool:
+        assert plant.answer(40.0).reference == 50.0
+        statuses = [array.status[0] for array in plant.diagnostics[-2:]]
+        return any("goes on at the last of them, 50 rad/s" in one.message for one in statuses)
+
+    plant.wait(told, "that to be said")
+    assert plant.diagnostics[-1].status[0].level == DiagnosticStatus.WARN
+
+
 @pytest.mark.parametrize("topic", ["motor/reference", "motor/joint_command"])
 def test_what_was_asked_for_while_the_controller_stood_still_is_not_obeyed(
     plant: FakePlant, process: subprocess.Popen[str], topic: str
