@@ -56,6 +56,10 @@ OF_SPEEDS = (
     "When speeds were made was not said, and {}: of values of their rows' own instants (import_log --speed-window "
     "ROW --speed-lag 0)"
 )
+OF_BOTH = (
+    "When speeds were made was not said, and {}: of values of their rows' own instants, and voltages that held until "
+    "these (import_log --speed-window ROW --speed-lag 0 --voltage-before)"
+)
 
 
 @dataclass(frozen=True)
@@ -98,12 +102,19 @@ def describe_untold(estimate: Estimate, errors: Mapping[str, float]) -> list[str
     if not imported or (problem.sample_period < MATTERS * estimate.parameters.time_constant and not late):
         return []
     if all(map(is_voltage_open, problem.recordings)):
-        return _compare(estimate, _read_later(estimate), errors, OF_VOLTAGES)
-    if all(is_open(one) and not _is_counted(one) for one in problem.recordings):
-        row = OTHERS[0].window * problem.sample_period
-        here, there = (_read_rows(estimate, timing) for timing in (ASSUMED, OTHERS[0]))
-        return _compare(here, there, errors, OF_SPEEDS.replace("ROW", f"{row:.3g}"))
-    return []
+        return _compare(estimate, _read_later(estimate), errors, OF_VOLTAGES, estimate)
+    if not all(map(is_open, problem.recordings)):
+        return []
+    row, here = OTHERS[0].window * problem.sample_period, _read_rows(estimate, ASSUMED)
+    unsaid = all(one.info.voltage_assumed for one in problem.recordings)
+    if any(map(_is_counted, problem.recordings)):  # each is the mean of its row: only its voltage may be of another
+        return _compare(here, _read_rows(estimate, UNTIL), errors, OF_VOLTAGES, estimate) if unsaid else []
+    others = ((OTHERS[0], OF_SPEEDS), *([(OTHERS[2], OF_BOTH)] if unsaid else []))
+    return [
+        note
+        for timing, text in others
+        for note in _compare(here, _read_rows(estimate, timing), errors, text.replace("ROW", f"{row:.3g}"), estimate)
+    ]
 
 
 def _is_counted(recording: Recording) -> bool:
@@ -115,29 +126,24 @@ def _is_counted(recording: Recording) -> bool:
     return step * recording.sample_period * MOST_COUNTS > tau and find_speed_sensor(recording).sigma == 0.0
 
 
-def _compare(estimate: Estimate, other: Estimate, errors: Mapping[str, float], text: str) -> list[str]:
+def _compare(estimate: Estimate, other: Estimate, errors: Mapping[str, float], text: str, told: Estimate) -> list[str]:
     """Say what two readings give, the other and this, where that differs and the other is as likely.
 
-    Or hardly less likely, where that differs by far.
+    Or hardly less likely, where that differs by far. told: the estimate that a user is told of, whose values are said.
     """
     here, there = _fit_beside_torque(estimate), _fit_beside_torque(other)
     gain = there.likelihood - here.likelihood
     if gain < -LEAST_GAIN:
         return []
     share, times = (MATTERS, SURE_ERRORS) if gain >= -AS_LIKELY else (FAR, FAR_ERRORS)
-    late = "delay" in errors
-    pairs = {name: _values(name, here, there) for name in ("ka", "delay")[: 1 + late]}
-    said = [
-        f"{name} would be {theirs:.3g} instead of {ours:.3g} {SPEC_BY_NAME[name].unit}"
-        for name, (ours, theirs) in pairs.items()
-        if abs(theirs - ours) > max(share * ours, times * errors[name])
-    ]
-    told = LIKELIER if gain > AS_LIKELY else UNTOLD if gain >= -AS_LIKELY else HARDLY_TOLD
-    return [f"{text.format(told)} {' and '.join(said)}."] if said else []
-
-
-def _values(name: str, here: _Reading, there: _Reading) -> tuple[float, float]:
-    return here.estimate.parameters.value(name), there.estimate.parameters.value(name)
+    said = []
+    for name in ("ka", "delay") if "delay" in errors else ("ka",):
+        own, ours, theirs = (one.parameters.value(name) for one in (told, here.estimate, there.estimate))
+        least = max(share * ours, times * errors[name])
+        if min(abs(theirs - ours), abs(theirs - own)) > least:
+            said.append(f"{name} would be {theirs:.3g} instead of {own:.3g} {SPEC_BY_NAME[name].unit}")
+    which = LIKELIER if gain > AS_LIKELY else UNTOLD if gain >= -AS_LIKELY else HARDLY_TOLD
+    return [f"{text.format(which)} {' and '.join(said)}."] if said else []
 
 
 def count_intervals(estimate: Estimate) -> int:

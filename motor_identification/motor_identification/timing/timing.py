@@ -63,12 +63,12 @@ class Timing:
         if not is_open(recording):
             return recording
         recording = self.rows.set_on(recording)
-        info, row, lag = recording.info, recording.info.sample_period, self.lag
+        row, lag = recording.info.sample_period, self.lag
         if self.is_early:
             recording, lag = _hold_until(recording), lag + 1.0
         if self.slot > 0.0:
             recording = replace(recording, edge_period=divide_slot(self.slot, recording.speed))
-        return replace(recording, info=replace(info, speed_window=self.window * row, speed_lag=lag * row))
+        return replace(recording, info=replace(recording.info, speed_window=self.window * row, speed_lag=lag * row))
 
     @property
     def is_early(self) -> bool:

@@ -247,11 +247,43 @@ def test_a_quick_motor_has_two_inertias_by_when_its_speeds_were_made(digits: int
     if not digits:
         step = tau / counts / ROW
         logged = replace(logged, speed=step * np.round(noisy / step))
-    notes = list_untold(assume(logged))
+    untold = list_untold(assume(logged))
+    notes = [note for note in untold if note.startswith("When speeds")]
     assert bool(notes) is said
     if said:
         assert "--speed-lag 0" in notes[0] and "--voltage-before" not in notes[0]
         assert float(notes[0].split("ka would be ")[1].split()[0]) == pytest.approx(fast["ka"], rel=0.05)
+    assert all("--voltage-before" in note for note in untold if note not in notes)
+
+
+@pytest.mark.parametrize(("counts", "option"), [(60, "(import_log --voltage-before)"), (0, "--speed-lag 0 --voltage")])
+def test_a_quick_motor_has_two_inertias_by_when_the_voltages_of_speeds_held(counts: int, option: str) -> None:
+    """A ka of speeds that were counted was 12 % off, and 9 of its standard errors, without a word; a filter's 30 %."""
+    drive, fast = profiles.ramps(6.0, 2.0), {"kv": 0.05, "ka": 0.001}
+    recording, truth = record(fast, *drive, seed=0, edges=960, sample_rate=1.0 / ROW, single_channel=False)
+    logged = without_count(as_speed(recording))
+    if counts:
+        step = tau / counts / ROW
+        logged = replace(logged, speed=step * np.round(logged.speed / step))
+    else:
+        noise = 1.0 * np.random.default_rng(0).standard_normal(len(truth.speed))
+        logged = replace(logged, speed=truth.speed + noise)
+    (note,) = [note for note in untold_of(until(assume(logged))) if option in note]
+    assert float(note.split("ka would be ")[1].split()[0]) == pytest.approx(fast["ka"], rel=0.1)
+    assert not any("--voltage-before" in note for note in list_untold(until(assume(logged, False))))
+
+
+def test_what_is_said_of_two_readings_begins_with_the_value_that_a_user_is_told(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A table said a dead time of 1.23 ms, and the sentence below it 1.07 ms."""
+    estimate, _ = search_globally(make_problem([counted()], ()), SearchConfig())
+    ka = estimate.parameters.value("ka")
+    values = (SimpleNamespace(parameters=SimpleNamespace(value=lambda name, t=t: t * ka)) for t in (0.9, 1.5))
+    readings = iter([_Reading(cast(Estimate, one), NONE, 0.0) for one in values])
+    monkeypatch.setattr(module, "_fit_beside_torque", lambda one: next(readings))
+    (note,) = describe_untold(estimate, {"ka": 0.01 * ka})
+    assert f"ka would be {1.5 * ka:.3g} instead of {ka:.3g}" in note
 
 
 @pytest.mark.parametrize(("delay", "said"), [(0.012, True), (0.0, False)])
@@ -289,8 +321,14 @@ def test_both_readings_are_fitted_on_the_measured_angle(monkeypatch: pytest.Monk
     read = list[Estimate]()
     monkeypatch.setattr(module, "_compare", lambda here, there, *_: read.extend([here, there]) or [])
     identify([make_converted(*profiles.ramps(6.0, 4.0))], Request(("torque_ripple",)))
-    here, there = read
+    here, there, *_ = read
     assert here.problem.tracks == there.problem.tracks != ()
+
+
+def untold_of(recording: Recording) -> list[str]:
+    """What is said of a fit by the assumed timing."""
+    estimate, _ = search_globally(make_problem([recording], ()), SearchConfig())
+    return describe_untold(estimate, {"ka": 0.01 * estimate.parameters.value("ka")})
 
 
 def list_untold(recording: Recording) -> list[str]:
