@@ -10,7 +10,7 @@ from motor_identification.estimation.search.global_search import search_globally
 from motor_identification.estimation.thinning import thin_problem
 from motor_identification.periodic.periodic_fit import add_periodic_effects, drop_periodic_effects
 from motor_identification.recording import Recording
-from motor_identification.timing.speed_timing import find_timing
+from motor_identification.timing.speed_timing import find_timing, find_voltages
 from motor_identification.timing.timing import Timing
 from motor_identification.validation.hold_out import HoldOut, make_hold_out
 from motor_model.effects import normalised
@@ -58,6 +58,15 @@ def find_timing_beside(
     """
     model, restrict = selection.model, first.selection.hold_out.restrict
     return find_timing(first.recordings, model.estimate, restrict, model.effects, filtered, lagging)
+
+
+def find_voltages_beside(first: Start, selection: Selection) -> Timing | None:
+    """Find whether counts answer voltages that held until their rows, beside what was selected and explains all.
+
+    None where they do not, or where they are no counts of which nobody said it.
+    """
+    model, restrict = selection.model, first.selection.hold_out.restrict
+    return find_voltages(first.recordings, model.estimate, restrict, model.effects)
 
 
 def begin_as_timed(first: Start, timing: Timing | None, request: Request, stopped: Callable[[], bool]) -> Start:

@@ -76,8 +76,11 @@ class _Reading:
         return self.estimate.parameters.value("delay") / self.estimate.problem.sample_period
 
 
-def held_until(shaper: Shaper) -> bool:
-    """Decide whether the voltages of a shaper's recordings held until their rows."""
+def held_until(shaper: Shaper, complete: bool = False) -> bool:
+    """Decide whether the voltages of a shaper's recordings held until their rows.
+
+    complete: whether nothing is left beside what the shaper knows: then no row counts for less, the more there are.
+    """
     fitted = shaper.fit(ASSUMED)
     first = fitted.estimate
     if fitted.delay > LEAST_DELAY * first.problem.sample_period:
@@ -87,7 +90,8 @@ def held_until(shaper: Shaper) -> bool:
         return False
     later = _fit_beside_torque(_read_later(first))
     gain = later.likelihood - as_logged.likelihood
-    return later.delay < MOST_DELAY and gain > max(LEAST_GAIN, LEAST_GAIN_OF_ROW * count_intervals(first))
+    least = LEAST_GAIN if complete else max(LEAST_GAIN, LEAST_GAIN_OF_ROW * count_intervals(first))
+    return later.delay < MOST_DELAY and gain > least
 
 
 def describe_untold(estimate: Estimate, errors: Mapping[str, float]) -> list[str]:

@@ -84,6 +84,22 @@ def find_timing(
     return found
 
 
+def find_voltages(
+    recordings: Sequence[Recording],
+    estimate: Estimate,
+    restrict: Callable[[Problem], Problem] | None,
+    beside: Sequence[str],
+) -> Timing | None:
+    """Find whether voltages of counted recordings held until their rows, beside effects that explain all of them.
+
+    None where they hold from there on, as assumed, and where it was said or speeds are no counts. For the rest see
+    `find_timing`.
+    """
+    shaper = Shaper(recordings, estimate, restrict, _list_shaping(beside))
+    told = sum(map(len, recordings)) >= LEAST_SPEEDS and all(map(is_voltage_open, recordings))
+    return UNTIL if told and held_until(shaper, complete=True) else None
+
+
 def _find_beside(shaper: Shaper, filtered: bool) -> Timing | None:
     """Find the timing of recordings by what shapes their motion; None if as assumed, or as was said."""
     recordings = shaper.recordings

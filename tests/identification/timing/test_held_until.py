@@ -140,6 +140,8 @@ def test_every_limit_decides(
     readings = {True: Reading(later, gain), False: Reading(logged, 0.0)}
     monkeypatch.setattr(module, "_fit_beside_torque", lambda estimate: readings[estimate is None])
     assert module.held_until(cast(Shaper, SimpleNamespace(fit=lambda timing: fitted))) == told
+    beside_all = module.held_until(cast(Shaper, SimpleNamespace(fit=lambda timing: fitted)), complete=True)
+    assert beside_all == (told or gain == 39.0)  # where nothing is left, so much is enough of any number of rows
     fitted.delay = 0.06 * ROW  # late, before any torque is looked at
     assert not module.held_until(cast(Shaper, SimpleNamespace(fit=lambda timing: fitted)))
 

@@ -12,7 +12,13 @@ from motor_identification.diagnosis.selection.timed_selection import select_as_t
 from motor_identification.diagnosis.selection.whole_selection import Selected
 from motor_identification.estimation.request import Request
 from motor_identification.timing.speed_filter import SpeedFilter
-from motor_identification.timing.timing import ASSUMED, OTHERS, Timing
+from motor_identification.timing.timing import ASSUMED, OTHERS, UNTIL, Timing
+
+
+@pytest.fixture(autouse=True)
+def untold_voltages(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Rows hold the voltages from them on, wherever a test says nothing else."""
+    monkeypatch.setattr(timed_selection, "find_voltages_beside", lambda *_: None)
 
 
 @pytest.mark.parametrize(
@@ -124,3 +130,49 @@ def test_an_inductance_that_was_found_is_asked_for_the_timing(
     start, selected = select_as_timed(first, Request(), reporter, limit)  # type: ignore[arg-type]
     assert start.timing == (OTHERS[0] if taken else None)
     assert selected.finished is time
+
+
+@pytest.mark.parametrize(
+    ("complete", "told", "time", "gap", "explained", "found", "taken"),
+    [
+        (True, True, True, 1.09, True, (), True),
+        (True, True, True, 1.09, True, ("coast_drive",), True),
+        (True, True, True, 1.11, True, (), False),
+        (True, True, True, 1.0, False, (), False),
+        (True, True, True, 1.0, True, ("coast_drive", "dead_zone"), False),
+        (True, True, False, 1.0, True, (), False),
+        (True, False, True, 1.0, True, (), False),
+        (False, True, True, 1.0, True, (), False),  # what is left may come early
+    ],
+)
+def test_counts_that_answer_voltages_before_their_rows_need_no_effect_for_it(
+    monkeypatch: pytest.MonkeyPatch,
+    complete: bool,
+    told: bool,
+    time: bool,
+    gap: float,
+    explained: bool,
+    found: tuple[str, ...],
+    taken: bool,
+) -> None:
+    """Of ramps a load of 1.3 mV was named for a 160th of the time constant, 17 of its standard errors."""
+    states = iter([(1.0, complete, ("load_bias",)), (gap, explained, found)])
+
+    def select(*_: Any) -> Any:
+        left, whole, effects = next(states)
+        held = SimpleNamespace(gap=left)
+        model = SimpleNamespace(held=held, above_floor=not whole, complete=whole, effects=effects)
+        return Selected(SimpleNamespace(model=model), (), finished=True)  # type: ignore[arg-type]
+
+    first = SimpleNamespace(selection=None, timing=None)
+    again = SimpleNamespace(selection=None, timing=UNTIL)
+    begin: Callable[..., Any] = lambda one, timing, *_: again if timing else first  # noqa: E731
+    monkeypatch.setattr(timed_selection, "find_timing_beside", lambda *_, **__: None)
+    monkeypatch.setattr(timed_selection, "find_voltages_beside", lambda *_: UNTIL if told else None)
+    monkeypatch.setattr(timed_selection, "select_in_time", select)
+    monkeypatch.setattr(timed_selection, "begin_as_timed", begin)
+    limit = SimpleNamespace(begin_with=lambda _: None, begin_again=lambda: time, best=None)
+    reporter = SimpleNamespace(stopped=lambda: False, beyond=lambda _: None)
+    start, selected = select_as_timed(first, Request(), reporter, limit)  # type: ignore[arg-type]
+    assert start.timing == (UNTIL if taken else None)
+    assert selected.finished is (time or not told or not complete)
