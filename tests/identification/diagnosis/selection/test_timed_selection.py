@@ -23,7 +23,14 @@ def untold_voltages(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize(
     ("gap", "above", "complete", "taken"),
-    [(4.9, True, True, True), (5.1, True, True, False), (4.9, False, True, False), (4.9, True, False, False)],
+    [
+        (4.9, True, True, True),
+        (5.1, True, True, False),
+        (4.9, False, True, False),
+        (4.9, True, False, False),
+        (2.6, True, False, False),
+        (2.4, True, False, True),  # what is left is far more than a filter hides of noise: there is none
+    ],
 )
 def test_a_filter_behind_which_much_is_left_is_doubted(
     monkeypatch: pytest.MonkeyPatch, gap: float, above: bool, complete: bool, taken: bool
