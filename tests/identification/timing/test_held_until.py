@@ -26,7 +26,7 @@ from motor_identification.recording import Recording, check, recording_of
 from motor_identification.timing import held_until as module
 from motor_identification.timing.held_until import _Reading, describe_untold
 from motor_identification.timing.shaped_fit import Shaper
-from motor_identification.timing.speed_timing import find_timing
+from motor_identification.timing.speed_timing import find_timing, find_voltages
 from motor_identification.timing.timing import ASSUMED, UNTIL, Timing, is_voltage_open, read_again
 from motor_model.sample import Info, Measurement, Sample
 
@@ -77,6 +77,14 @@ def test_speeds_of_said_counts_are_those_of_rows_as_counts_are(edges: int) -> No
     assert timing_of(said) is None
     found = timing_of(until(said))
     assert found == UNTIL if edges else found is None or found.lag <= ASSUMED.lag
+
+
+def test_beside_all_that_was_selected_the_voltages_of_counts_alone_are_told() -> None:
+    logged = counted()
+    estimate, _ = search_globally(make_problem([logged], ()), SearchConfig())
+    assert find_voltages([until(logged)], estimate, None, ()) == UNTIL
+    assert find_voltages([logged], estimate, None, ()) is None
+    assert find_voltages([until(assume(logged, False))], estimate, None, ()) is None  # it was said
 
 
 def test_speeds_of_said_counts_may_have_passed_a_filter_and_be_of_earlier_voltages() -> None:
