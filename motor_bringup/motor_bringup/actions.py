@@ -47,7 +47,7 @@ def described(arguments: Iterable[Argument], session: Callable[[Mapping[str, str
 
 def _is_launched(path: Path, words: Sequence[str]) -> bool:
     """Whether the words of a command line launch that file itself, by package and name or by path, and no other's."""
-    named = any(file == path.name and package in path.parts for package, file in pairwise(words))
+    named = any(file == path.name and package == path.parent.parent.name for package, file in pairwise(words))
     return named or any(Path(word).resolve() == path.resolve() for word in words if Path(word).name == path.name)
 
 

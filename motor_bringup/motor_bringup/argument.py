@@ -7,7 +7,8 @@ from difflib import get_close_matches
 from motor_model.errors import MotorError
 
 MEANT, MISSPELT = 0.6, 0.85  # likeness of a name to the one that was meant; of a name that can hardly mean another one
-OF_THE_SYSTEM = ("ros_", "launch-prefix")  # names that begin so are the launch system's own
+# Names that begin so are the launch system's own: it looks them up itself for every node and process.
+OF_THE_SYSTEM = ("ros_", "launch-prefix", "global_params", "sigterm_timeout", "sigkill_timeout", "emulate_tty")
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,11 +64,16 @@ def refuse_unknown(arguments: Iterable[Argument], told: Iterable[str], alone: bo
         if name in ours or name.startswith(OF_THE_SYSTEM):
             continue
         near = get_close_matches(name.lower(), ours, 1, MEANT if alone else MISSPELT)
-        if alone or (near and near[0] not in said):
+        if alone:
             meant = f": did you mean {near[0]}?" if near else "."
             file = " A node's parameter goes into a file, parameters:=FILE." if PARAMETERS.name in ours else ""
             they = f"It has {', '.join(ours)}.{file}"
             raise MotorError(f"{name}:= is no argument of this launch file, and would do nothing{meant} {they}")
+        if near and near[0] not in said:
+            raise MotorError(
+                f"{name}:= is no argument of the launch file that is included: did you mean {near[0]}? If it is "
+                f"one of your own file, pass {near[0]} as well."
+            )
 
 
 def namespace_of(values: Mapping[str, str]) -> str:

@@ -168,5 +168,5 @@ def test_a_launch_file_that_includes_one_has_arguments_of_its_own(
     process.send_signal(signal.SIGINT)
     rest, _ = process.communicate(timeout=PATIENCE)
     out = "".join(lines) + rest
-    assert ("parameter:= is no argument of this launch file" in out) == refused, out
+    assert ("parameter:= is no argument of the launch file that is included" in out) == refused, out
     assert ("Simulating" in out) != refused and ("started with" in out) != refused

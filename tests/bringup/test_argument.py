@@ -51,7 +51,8 @@ def test_a_name_that_is_no_argument_is_refused(name: str) -> None:
     said += rf": did you mean {meant}\? It has" if meant else r"\. It has plant, model, namespace, port, parameters\."
     with pytest.raises(MotorError, match=said):
         refuse_unknown(ours, ["plant", name], alone=True)
-    refuse_unknown(ours, ["plant", "parameters", "ros_namespace", "launch-prefix", "launch-prefix-filter"], alone=True)
+    theirs = ["ros_namespace", "launch-prefix", "launch-prefix-filter", "sigterm_timeout", "sigkill_timeout"]
+    refuse_unknown(ours, ["plant", "parameters", *theirs, "emulate_tty", "global_params"], alone=True)
 
 
 @pytest.mark.parametrize("name", ["parameter", "paramters", "plnt", "name_space"])
@@ -59,5 +60,7 @@ def test_beside_the_arguments_of_another_file_only_a_misspelt_one_is_refused(nam
     ours = PLANT, MODEL, NAMESPACE, PORT, PARAMETERS
     theirs = ["robot_model", "robot_namespace", "left_port", "use_sim_time", "max_voltage", "params_file", "controller"]
     refuse_unknown(ours, [*theirs, "plant", "ports", "port", "ros_namespace"], alone=False)
-    with pytest.raises(MotorError, match=f"^{name}:= is no argument of this launch file"):
+    with pytest.raises(MotorError, match=f"^{name}:= is no argument of the launch file that is included") as refused:
         refuse_unknown(ours, [*theirs, name], alone=False)
+    meant = str(refused.value).rpartition("your own file, pass ")[2].removesuffix(" as well.")
+    refuse_unknown(ours, [*theirs, name, meant], alone=False)

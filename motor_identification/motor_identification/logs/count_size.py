@@ -232,19 +232,26 @@ def doubt_counts(counts: float, period: float, step: float, digit: float) -> str
     )
 
 
-def doubt_unit(unit: str, counts: float, step: float) -> str:
+def _is_printed(angle: float) -> bool:
+    """Whether an angle is one digit in a place of its own: 1, 2 or 5 there."""
+    digits = angle / 10.0 ** floor(log10(angle))
+    return min(abs(digits / digit - 1.0) for digit in (1.0, 2.0, 5.0, 10.0)) < ROUND_STEP
+
+
+def doubt_unit(unit: str, counts: float, step: float, window: float) -> str:
     """Say that speeds may be in another unit than was said, by a step that none of theirs makes; else empty.
 
     Args:
         unit: that was said, of speeds.
         counts: of a turn, by the step in that unit.
         step: of the speeds, in that unit.
+        window: [s] that a step is of: an angle in rad that was printed to so many digits has round steps, too.
     """
     if unit not in UNITS_OF_A_TURN or not counts > 0.0:
         return ""
     mantissa = step / 10.0 ** (floor(log10(step)) - 1)
     if unit == "rad/s" and abs(mantissa - round(mantissa)) < ROUND_STEP * mantissa:
-        if round(mantissa) in OF_ROUNDING:
+        if round(mantissa) in OF_ROUNDING or _is_printed(step * window):
             return ""
         return (
             f" A count is a round {step:.3g} in rpm or deg/s, and never in rad/s, of which a turn has 2π: check --unit."

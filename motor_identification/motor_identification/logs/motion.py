@@ -203,7 +203,7 @@ def _about_count(form: CsvForm, signals: Signals, edges: int, window: float) -> 
             f"Values are multiples of {step / unit:.4g} {form.unit}{new}: one count within {within} if the encoder has "
             f"{counts:.5g} per revolution (assumed; otherwise: --edges-per-revolution)."
             f"{doubt_counts(counts, frame or window, step / unit, printed_digit(signals.motion))}"
-            f"{'' if read_heading(form.motion).unit else doubt_unit(form.unit, counts, step / unit)}"
+            f"{'' if read_heading(form.motion).unit else doubt_unit(form.unit, counts, step / unit, frame or window)}"
             f"{'' if frame or form.speed_window else doubt_window(counts, window, _count_held_rows(signals))}"
         )
     coarse = find_lattice(signals.motion)

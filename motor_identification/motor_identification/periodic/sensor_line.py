@@ -18,11 +18,11 @@ from motor_identification.recording import Floats
 Shape = Callable[[Course, float], tuple[Floats, Floats]]  # increments (I,) of a line's sine and cosine
 
 
-def measure_sensor_lead(estimate: Estimate, tracks: Sequence[Track], cycles: float) -> float:
-    """Measure by how much log likelihood a sensor's error explains a line of so many cycles a turn better than a load.
+def explain_line(estimate: Estimate, tracks: Sequence[Track], cycles: float) -> tuple[float, float]:
+    """Measure how much log likelihood a load, and a sensor's error, of so many cycles a turn explain.
 
     Either at these cycles or at the nearest whole number of them, as it fits best: a sensor on the shaft that it tells
-    of has whole ones. estimate: without the line, of logged speeds. Negative where a load explains it better.
+    of has whole ones. estimate: without the line, of logged speeds.
     """
     runs = whiten_runs(estimate, tracks)
 
@@ -36,7 +36,7 @@ def measure_sensor_lead(estimate: Estimate, tracks: Sequence[Track], cycles: flo
     places = {cycles, max(float(np.round(cycles)), 1.0)}
     load = max(explain(Course.response, at) for at in places)
     sensor = max(explain(shape, at) for shape in (_err_at_end, _err_within) for at in places)
-    return 0.5 * (sensor - load)
+    return 0.5 * load, 0.5 * sensor
 
 
 def _err_at_end(course: Course, cycles: float) -> tuple[Floats, Floats]:

@@ -12,7 +12,10 @@ from motor_ros.graph.publishers import Publisher, ask_of_node
 PLAYERS = "rosbag2_player", "plotjuggler"
 # How programs call their nodes that publish what they read of a bag themselves: playback_node in ROS 2's own tutorial,
 # bag_player, rosbag_replayer. The node of rqt, whose rqt_bag plays as well, is also one in which a person publishes.
-OTHERS = re.compile(r"bag\w*play|^playback_node$", re.IGNORECASE)
+OTHERS = re.compile(
+    r"(^|_)(ros)?bag2?_?(re)?play(er|back)?(_|\d|$)|(^|_)(re)?play(er|back)?_?(ros)?bag2?(_|\d|$)|^playback_?node",
+    re.IGNORECASE,
+)
 SERVED = "rosbag2_interfaces/srv/"
 CALLED = (
     "{} would be called by what plays a recording ({}), which may have requests in it: call again when that has ended."

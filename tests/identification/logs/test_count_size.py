@@ -168,7 +168,14 @@ def test_counts_within_what_decimals_and_clocks_leave_are_not(counts: float, per
     ],
 )
 def test_a_unit_is_doubted_by_a_step_that_it_does_not_make(unit: str, counts: float, step: float, said: str) -> None:
-    assert (said in doubt_unit(unit, counts, step)) if said else doubt_unit(unit, counts, step) == ""
+    doubt = doubt_unit(unit, counts, step, 0.001)
+    assert said in doubt if said else doubt == ""
+
+
+@pytest.mark.parametrize(("rate", "step"), [(60.0, 0.06), (30.0, 0.03), (40.0, 0.04), (60.0, 0.12), (30.0, 0.15)])
+def test_a_round_step_of_an_angle_that_was_printed_in_radians_is_one_of_those(rate: float, step: float) -> None:
+    assert doubt_unit("rad/s", 2.0 * np.pi * rate / step, step, 1.0 / rate) == ""
+    assert "check --unit" in doubt_unit("rad/s", 2.0 * np.pi * rate / step, step, 1.5 / rate)
 
 
 def test_a_window_is_doubted_where_speeds_stay_for_more_rows() -> None:

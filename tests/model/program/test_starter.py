@@ -6,6 +6,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from pathlib import Path
 from threading import Event
 
 import pytest
@@ -64,6 +65,21 @@ def test_the_end_of_a_process_is_heard_and_not_before(
     launch.kill()
     launch.wait()
     assert ended.wait(PATIENCE)
+
+
+def test_a_process_that_has_ended_and_that_nobody_asks_about_has_ended(
+    launch: Launch, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As one under a process 1 that asks about none, in a container."""
+
+    def refuse(process: int) -> int:
+        raise OSError(38, "Function not implemented")
+
+    monkeypatch.setattr(starter.os, "pidfd_open", refuse)
+    launch.kill()
+    ended = Event()
+    watch_starter(launch.pid, ended.set)
+    assert ended.wait(PATIENCE) and Path(f"/proc/{launch.pid}").exists()
 
 
 def test_a_process_that_has_ended_already_is_heard_at_once(launch: Launch) -> None:

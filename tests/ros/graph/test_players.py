@@ -23,7 +23,9 @@ DAY = 86_400_000_000_000  # [ns]
 
 
 @pytest.mark.parametrize(
-    "name", ["bag_player", "rosbag_player", "RosbagReplayer", "simple_bag_play_node", "playback_node"]
+    "name",
+    ["bag_player", "rosbag_player", "RosbagReplayer", "simple_bag_play_node", "playback_node", "PlaybackNode"]
+    + ["playback_node_1", "play_bag", "replay_bag", "play_rosbag", "rosbag_playback", "bag_player2"],
 )
 def test_players_of_other_programs_are_known_by_their_names(name: str) -> None:
     """A speed that one of them sent last was held for ever, as a hand's is."""
@@ -31,7 +33,9 @@ def test_players_of_other_programs_are_known_by_their_names(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["play", "experiment", "rqt_gui_py_node_123", "teleop", "airbag", "player", "rosbag2_recorder"]
+    "name",
+    ["play", "experiment", "rqt_gui_py_node_123", "teleop", "airbag", "player", "rosbag2_recorder"]
+    + ["garbage_display", "baggage_display_node", "rosbag_display", "bag_file_display", "playground_bagger"],
 )
 def test_what_may_be_a_hand_or_a_program_is_no_player(name: str) -> None:
     assert not is_player(name)

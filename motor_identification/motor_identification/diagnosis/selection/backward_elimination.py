@@ -16,6 +16,7 @@ from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.evidence.angle_evidence import find_angle_friction
 from motor_identification.diagnosis.evidence.drooping_evidence import find_droop
+from motor_identification.diagnosis.evidence.line_evidence import is_of_sensor
 from motor_identification.diagnosis.evidence.presliding_evidence import find_presliding
 from motor_identification.diagnosis.evidence.replacement import is_better
 from motor_identification.diagnosis.evidence.slewing_evidence import find_slewing
@@ -70,7 +71,8 @@ def _check_step(
     without = refit_without(current, effect, selection.hold_out)
     if without.learned is not None and without.likelihood > current.likelihood:  # by errors that it does not know
         current = _judge_by_errors_of(without.learned, current, selection.hold_out)
-    if not CandidateTest(effect, without, current).is_likely(likelihood_threshold()):
+    test = CandidateTest(effect, without, current)
+    if not test.is_likely(likelihood_threshold()) or is_of_sensor(test):
         return selection.replace_step(step, None, without)
     outside = _find_outside([effect], without, current)
     if outside is not None:

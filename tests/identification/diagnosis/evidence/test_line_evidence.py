@@ -184,29 +184,36 @@ def test_a_torque_once_a_turn_may_be_a_disc_where_nothing_tells_of_one(
 
 
 @pytest.mark.parametrize(
-    ("lead", "slot", "cycles", "sensor"),
+    ("load", "slot", "cycles", "sensor"),
     [
-        (1.01 * thresholds.RIVAL_MARGIN, 0.0, 2.0, True),
-        (0.99 * thresholds.RIVAL_MARGIN, 0.0, 2.0, False),
-        (1.01 * thresholds.RIVAL_MARGIN, 0.1, 2.0, False),  # counted slots are learned
-        (1.01 * thresholds.RIVAL_MARGIN, 0.0, None, False),  # no line was found to fit
+        (50.0 - 1.01 * thresholds.RIVAL_MARGIN, 0.0, 2.0, True),
+        (50.0 - 0.99 * thresholds.RIVAL_MARGIN, 0.0, 2.0, False),
+        (1.0, 0.1, 2.0, False),  # counted slots are learned
+        (1.0, 0.0, None, False),  # no line was found to fit
     ],
 )
+@pytest.mark.parametrize("fitted", [True, False])
 def test_a_line_of_logged_speeds_is_the_sensors_where_that_explains_it_better(
-    monkeypatch: pytest.MonkeyPatch, lead: float, slot: float, cycles: float | None, sensor: bool
+    monkeypatch: pytest.MonkeyPatch, load: float, slot: float, cycles: float | None, sensor: bool, fitted: bool
 ) -> None:
+    """Than a load beside the fit without it, and than one that was fitted."""
     asked: list[tuple[object, object, float]] = []
 
-    def measure(estimate: object, tracks: object, cycles: float) -> float:
+    def explain(estimate: object, tracks: object, cycles: float) -> tuple[float, float]:
         asked.append((estimate, tracks, cycles))
-        return lead
+        return 1.0 if fitted else load, 50.0
 
-    monkeypatch.setattr(line_evidence, "measure_sensor_lead", measure)
+    monkeypatch.setattr(line_evidence, "explain_line", explain)
     problem = SimpleNamespace(intervals=(SimpleNamespace(slot=slot, gear=1.0),), unknowns=SimpleNamespace(effects=()))
     without = cast(Estimate, SimpleNamespace(problem=problem))
     values = {} if cycles is None else {"ripple_voltage": 0.1, "ripple_cycles": cycles, "ripple_phase": 0.0}
-    test = line("torque_ripple", 20.0, **values)
+    test = line("torque_ripple", load if fitted else 1.0, **values)
     cast(SimpleNamespace, test.model.estimate.problem).tracks = ("the measured angles",)
     test = replace(test, before=replace(test.before, estimate=without))
     assert is_of_sensor(test) is sensor
     assert asked == ([(without, ("the measured angles",), cycles)] if slot == 0.0 and cycles is not None else [])
+
+
+def test_no_other_effect_is_a_sensors_line() -> None:
+    assert not is_of_sensor(line("encoder_eccentricity", 20.0, eccentricity=0.01, eccentricity_phase=0.0))
+    assert not is_of_sensor(line("coulomb_friction", 20.0, ks=0.1))

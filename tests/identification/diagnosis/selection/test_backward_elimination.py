@@ -136,3 +136,25 @@ def test_what_was_checked_beside_one_that_went_is_checked_without_it(
     left = eliminate_backward(Selection(steps, model, cast(HoldOut, None), 1), SILENT)
     assert [one.found.effect for one in left.steps] == ["dead_zone", "quadratic_drag"]
     assert checked == [(name, True) for name in names] + ([("dead_zone", False)] if again else [])
+
+
+@pytest.mark.parametrize("of_sensor", [True, False])
+def test_a_line_that_is_a_sensors_beside_all_that_was_found_later_is_taken_back(
+    monkeypatch: pytest.MonkeyPatch, of_sensor: bool
+) -> None:
+    """Before a friction was found, the load of 2.00 cycles was likelier than such errors."""
+    bare, rippling = stub_model(2.0, 0.0, likelihood=-500.0), stub_model(1.0, 0.0, likelihood=-400.0)
+    asked: list[CandidateTest] = []
+
+    def is_of_sensor(test: CandidateTest) -> bool:
+        asked.append(test)
+        return of_sensor
+
+    monkeypatch.setattr(backward_elimination, "refit_without", lambda *_: bare)
+    monkeypatch.setattr(backward_elimination, "is_of_sensor", is_of_sensor)
+    monkeypatch.setattr(backward_elimination, "_find_outside", lambda *_: None)
+    found = CandidateTest("torque_ripple", bare, rippling)
+    step = SelectionStep(bare, found, (found,), (), 1.0)
+    left = eliminate_backward(Selection((step,), rippling, cast(HoldOut, None), 1), SILENT)
+    assert [one.found.effect for one in left.steps] == ([] if of_sensor else ["torque_ripple"])
+    assert left.model is (bare if of_sensor else rippling) and asked == [found]

@@ -17,6 +17,7 @@ _CAMEL = re.compile(r"(?<=[^\W\d_A-ZÀ-Þ])(?=[A-ZÀ-Þ])|(?<=[A-Z])(?=[A-Z][a-z
 _MILLI = re.compile(r"(?<![^\W\d_])m([AVS])(?![^\W_])")  # units of one word, whatever their capitals
 _KNOWN = frozenset().union(*WORDS.values(), MEASURED, FILTERED)
 _MOTIONS = frozenset(word for kind in MOVES for word in WORDS[kind] if len(word) > 2)
+_COUNTED = WORDS[Quantity.COUNT] - {"enc", "encoder", "qei"}  # of which denc is the fourth beside aenc
 _WRITTEN_TOGETHER = re.compile(  # the longer ones first
     "|".join(sorted((word for word in _KNOWN if "\u2e80" < word[0] < "\ua4d0"), key=len, reverse=True))
 )
@@ -35,7 +36,7 @@ def _taken_apart(word: str) -> tuple[str, ...]:
         return (word,)
     if word[0] in "lr" and word[1:] in _MOTIONS:  # Lspeed beside Rspeed; RPWM and LPWM may be one motor's two ways
         return (word[0], word[1:])
-    if word[0] == "d" and word[1:] in WORDS[Quantity.COUNT]:  # dticks, denc: how many since the row before
+    if word[0] == "d" and word[1:] in _COUNTED:  # dticks: how many since the row before
         return (word[0], word[1:])
     if word.endswith("dot") and word[:-3] in WORDS[Quantity.POSITION]:  # thetadot
         return (word[:-3], "dot")

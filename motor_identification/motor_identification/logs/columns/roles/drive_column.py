@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from motor_identification.logs.columns.drive import is_supply
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.notes import ask_column, ask_drive, miss_drive
-from motor_identification.logs.columns.roles.candidates import is_numeric, list_unnamed, stays
+from motor_identification.logs.columns.roles.candidates import is_numeric, list_unnamed
 from motor_identification.logs.columns.said import Pair
 from motor_identification.logs.columns.vocabulary import Quantity
 from motor_identification.logs.csv.table import Table
@@ -38,7 +38,6 @@ def find_drive_column(table: Table, headings: Sequence[Heading], side: str, othe
             found = [name for name in found if _may_drive(table, name, duties)]
         if len(found) > 1:  # what is 0 all the time drives nothing beside another
             found = [name for name in found if np.any(table.numbers(name))] or found
-            found = [name for name in found if not stays(table, name)] or found  # a supply's, or a setting
         if len(found) > 1:
             raise ask_column(table, quantity.value, "--voltage", found)
         if found:

@@ -15,6 +15,7 @@ from motor_identification.logs.columns.names.words import find_device, find_side
         ("实际转速", ("实际", "转速")),
         ("Lspeed", ("l", "speed")),
         ("dticks", ("d", "ticks")),
+        ("denc", ("denc",)),  # beside aenc, benc and cenc the fourth motor's
         ("dEncoder", ("d", "encoder")),
         ("dutycount", ("dutycount",)),
         ("lap", ("lap",)),  # no side of anything

@@ -102,5 +102,5 @@ def test_what_stays_drives_nothing_where_something_else_changes() -> None:
         assert find_roles(log, Said(voltage="Rig.ref")).pairs == (Pair("", "Rig.ref", "Rig.out"),)
     with pytest.raises(RecordingError, match=r"say --voltage ref\.$"):
         find_roles(columns(t=TIME, ref=DRIVE, speed=FOLLOWS, dt=late), Said())
-    both = find_roles(columns(t=TIME, u=DRIVE, volts=stays, speed=FOLLOWS), Said())
-    assert both.pairs == (Pair("", "u", "speed"),)
+    with pytest.raises(RecordingError, match=r"which column is the voltage\? .* one of u, volts"):
+        find_roles(columns(t=TIME, u=DRIVE, volts=stays, speed=FOLLOWS), Said())  # of one step, the one that stays
