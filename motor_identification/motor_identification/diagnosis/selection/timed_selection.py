@@ -53,8 +53,8 @@ def select_as_timed(
     model = other.selection.model
     # What a filter hides of the noise makes a gap smaller, too: without it, all has to be explained.
     # Or by far more than it hides. Measured: beside an open play, a false one left 370 rad/s and none 55.
-    share = model.held.gap / selected.selection.model.held.gap
-    alike = share <= most and (model.complete or not doubted or share <= thresholds.FAR_LESS_GAP)
+    gap, before = model.held.gap, selected.selection.model.held.gap
+    alike = gap <= most * before and (model.complete or not doubted or gap <= thresholds.FAR_LESS_GAP * before)
     return (again, other) if alike else (start, selected)
 
 
