@@ -10,11 +10,8 @@ from motor_bringup.program import Program, Value
 from motor_model.model_file import load
 from motor_model.parameters import paper_motor
 
-WORKED_OUT = (
-    "name",
-    "max_voltage",
-    "supply_voltage",
-)  # from the namespace and the model file; a user's parameter file prevails
+# From the namespace and the model file; a user's parameter file prevails.
+WORKED_OUT = "name", "max_voltage", "supply_voltage"
 
 
 def plant_programs(values: Mapping[str, str]) -> tuple[Program, ...]:

@@ -112,6 +112,21 @@ def start_counting(make_bench: MakeBench, channels: int, fold: int) -> Bench:
     return bench
 
 
+def make_storm(bench: Bench, channels: int, rate: int) -> Callable[[], None]:
+    """Edges at random, so many a second for half a second; what is returned sets those of the next 4 ms."""
+    bench.emulator._plan = lambda until: bench.emulator.shaft.plan(until)  # type: ignore[method-assign,assignment]
+    gaps = np.maximum(np.random.default_rng(1).exponential(16e6 / rate, rate // 2), 8)
+    cycles = (bench.chip.cycle + np.cumsum(gaps)).astype(np.uint64)
+    falls = np.where(np.arange(len(cycles)) % 2 == 1, Line.A_FALLS if channels == 2 else 0, 0).astype(np.uint8)
+
+    def set_edges() -> None:
+        now = np.uint64(bench.chip.cycle)
+        near = (cycles > now) & (cycles <= now + np.uint64(4 * MS))
+        bench.chip.set_edges(int(now), Edges(cycles[near], falls[near]))
+
+    return set_edges
+
+
 @on_the_larger_chip_slowly
 @pytest.mark.parametrize("rate", keep_fast([100_000, 150_000, 210_000, 260_000], 150_000, 210_000))
 @pytest.mark.parametrize(("channels", "fold"), [(1, 1), (2, 1), (2, 4)], ids=["one", "two", "two, fourfold"])
@@ -119,18 +134,13 @@ def test_a_storm_of_edges_holds_nothing_up(make_bench: MakeBench, channels: int,
     """It had no time-out meanwhile, was reset, or crashed: ticks in ticks left no room on the stack."""
     bench = start_counting(make_bench, channels, fold)
     bench.enable()
-    bench.emulator._plan = lambda until: bench.emulator.shaft.plan(until)  # type: ignore[method-assign,assignment]
-    gaps = np.maximum(np.random.default_rng(1).exponential(16e6 / rate, rate // 2), 8)
-    cycles = (bench.chip.cycle + np.cumsum(gaps)).astype(np.uint64)
-    falls = np.where(np.arange(len(cycles)) % 2 == 1, Line.A_FALLS if channels == 2 else 0, 0).astype(np.uint8)
+    set_edges = make_storm(bench, channels, rate)
     silent = bench.chip.cycle
     for k in range(150):
         if k < 60:
             bench.send(Command(128))
             silent = bench.chip.cycle
-        now = np.uint64(bench.chip.cycle)
-        near = (cycles > now) & (cycles <= now + np.uint64(4 * MS))
-        bench.chip.set_edges(int(now), Edges(cycles[near], falls[near]))
+        set_edges()
         bench.run(2)
         if k > 60 and bench.chip.pins.share == 0.0:
             break
@@ -151,10 +161,7 @@ def test_zeros_at_the_line_s_full_speed_beside_a_storm_of_edges_hold_nothing_up(
     """
     bench = start_counting(make_bench, channels, 1)
     bench.enable()
-    bench.emulator._plan = lambda until: bench.emulator.shaft.plan(until)  # type: ignore[method-assign,assignment]
-    gaps = np.maximum(np.random.default_rng(1).exponential(16e6 / 60_000, 30_000), 8)
-    cycles = (bench.chip.cycle + np.cumsum(gaps)).astype(np.uint64)
-    falls = np.where(np.arange(len(cycles)) % 2 == 1, Line.A_FALLS if channels == 2 else 0, 0).astype(np.uint8)
+    set_edges = make_storm(bench, channels, 60_000)
     silent = bench.chip.cycle
     for k in range(150):
         if k < 20:
@@ -162,9 +169,7 @@ def test_zeros_at_the_line_s_full_speed_beside_a_storm_of_edges_hold_nothing_up(
             silent = bench.chip.cycle
         else:
             bench.chip.feed(bytes(100))  # in 2 ms: 500,000 baud
-        now = np.uint64(bench.chip.cycle)
-        near = (cycles > now) & (cycles <= now + np.uint64(4 * MS))
-        bench.chip.set_edges(int(now), Edges(cycles[near], falls[near]))
+        set_edges()
         bench.run(2)
         if k > 20 and bench.chip.pins.share == 0.0:
             break

@@ -26,11 +26,8 @@ def test_plants_swap_in_that_word_only() -> None:
         differing = {name for name in shared if a.parameters[name] != b.parameters[name]}
         assert differing <= {"max_voltage", "supply_voltage"}  # which a model file cannot tell of real hardware
     assert [program.parameters["max_voltage"] for program in first] == [9.0, 12.0, 9.0]
-    assert [program.parameters["supply_voltage"] for program in first] == [
-        0.0,
-        0.0,
-        9.0,
-    ]  # the emulated board's is known
+    supplies = [program.parameters["supply_voltage"] for program in first]
+    assert supplies == [0.0, 0.0, 9.0]  # the emulated board's is known
     driver, board = sessions["emulated"].programs[:2]
     assert driver.parameters["port"] == board.parameters["link"] == "/tmp/motor_board"
 

@@ -47,7 +47,5 @@ def _err_at_end(course: Course, cycles: float) -> tuple[Floats, Floats]:
 
 def _err_within(course: Course, cycles: float) -> tuple[Floats, Floats]:
     """Errors of speeds that are means of their intervals."""
-    sine, cosine = (
-        np.diff(shape(cycles * np.stack([course.start, course.end])), axis=0)[0] for shape in (np.sin, np.cos)
-    )
-    return sine, cosine
+    ends = cycles * np.stack([course.start, course.end])
+    return np.diff(np.sin(ends), axis=0)[0], np.diff(np.cos(ends), axis=0)[0]

@@ -98,8 +98,7 @@ def _select_as_timed_beside_lag(
     again, other = _select_again(first, timing, request, reporter, limit)
     if other is None:
         return first, replace(selected, finished=False)
-    alike = other.selection.model.held.gap <= thresholds.GAP_CHANCE * selected.selection.model.held.gap
-    return (again, other) if alike else None
+    return (again, other) if _leaves_no_more(other, selected) else None
 
 
 def _select_by_voltages_before(
@@ -119,9 +118,13 @@ def _select_by_voltages_before(
     again, other = _select_again(first, timing, request, reporter, limit)
     if other is None:
         return first, replace(selected, finished=False)
-    model, before = other.selection.model, selected.selection.model
-    alike = model.complete and model.held.gap <= thresholds.GAP_CHANCE * before.held.gap
+    alike = other.selection.model.complete and _leaves_no_more(other, selected)
     return (again, other) if alike and len(other.effects) <= len(selected.effects) else None
+
+
+def _leaves_no_more(other: Selected, selected: Selected) -> bool:
+    """Decide whether what was selected by another timing leaves no larger a gap, but for chance."""
+    return other.selection.model.held.gap <= thresholds.GAP_CHANCE * selected.selection.model.held.gap
 
 
 def _select_again(
