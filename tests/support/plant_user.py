@@ -2,6 +2,7 @@
 
 import warnings
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray
@@ -71,6 +72,21 @@ class User:
                 (on_again or self.switch_on)()
         return next(sample for sample in self.samples[begin:] if condition(sample))
 
+    def until_driven(self, said: Callable[[], bool]) -> None:
+        """Wait until the plant says what it says while it is driven; as `until_on`, switch it on again after a stop."""
+        looked = len(self.samples)
+
+        def enough() -> bool:
+            return said() or len(self.samples) > looked + 300
+
+        while not said():
+            self.bench.wait(enough, "what a plant says that is driven")
+            looked = len(self.samples)
+            if not said() and self.samples[-1].voltage == 0.0:
+                self.stops += 1
+                count_stop(self.stops, f"a driven plant ({'; '.join(self._said.values())})")
+                self.switch_on()
+
     def switch_on(self) -> None:
         """Call motor/enable, until it succeeds: a board that was held up sends no telemetry for a moment."""
         on = SetBool.Request(data=True)
@@ -90,10 +106,12 @@ class User:
         self.until_on(lambda sample: sample.speed > 50.0, what, refer)
 
     def steady(self, voltage: float, count: int) -> list[MotorSpeed]:
-        """So many samples in a row at this voltage [V]."""
+        """So many samples in a row at this voltage [V]; those before one that was lost on the way do not count."""
 
         def steady(sample: MotorSpeed) -> bool:
-            return sample is self.samples[-1] and {one.voltage for one in self.samples[-count:]} == {voltage}
+            row = self.samples[-count:]
+            evenly = len({b.sample_time - a.sample_time for a, b in pairwise(row)}) == 1
+            return sample is self.samples[-1] and evenly and {one.voltage for one in row} == {voltage}
 
         begin = len(self.samples)
         self.until_on(lambda sample: len(self.samples) >= begin + count and steady(sample), "a steady voltage")

@@ -30,7 +30,7 @@ def user(bench: Bench) -> User:
 @pytest.mark.on_time
 def test_reaches_the_speed_of_its_model_and_stamps_every_edge(bench: Bench, start_plant: Start, user: User) -> None:
     motor = Parameters({"kv": PAPER_KV, "ka": PAPER_KA}, max_voltage=6.0)
-    process = start_plant(motor, "name:=wheel", "max_voltage:=6.0")
+    process = start_plant(motor, "name:=wheel", "max_voltage:=6.0", "supply_voltage:=6.0")
     info = bench.hear(MotorInfo, "motor/info", qos.INFO)
     joints = bench.hear(JointState, "joint_states", qos.JOINT_STATES)
     status = bench.hear(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
@@ -55,7 +55,7 @@ def test_reaches_the_speed_of_its_model_and_stamps_every_edge(bench: Bench, star
     def say() -> list[tuple[bytes, str]]:
         return [(one.level, one.message) for array in status for one in array.status if one.hardware_id == "wheel"]
 
-    bench.wait(lambda: say()[-1:] == [(b"\x00", "driven")], "the plant that is driven")
+    user.until_driven(lambda: say()[-1:] == [(b"\x00", "driven")])
     assert not any("More than one node" in message for _, message in say())
     end(process)
     assert process.returncode == 0
