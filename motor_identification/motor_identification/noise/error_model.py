@@ -41,7 +41,9 @@ class ErrorModel:
         if abs(rate - beta) < 1e-4 * beta:
             beta *= 1.001
         scale = (self.rms_voltage / lag.ka) ** 2 / (rate**2 - beta**2)
-        return np.asarray(scale * (_mean(beta * duration) - beta / rate * _mean(rate * duration)))
+        return np.asarray(
+            scale * (average_correlation(beta * duration) - beta / rate * average_correlation(rate * duration))
+        )
 
 
 @dataclass(frozen=True)
@@ -54,6 +56,6 @@ class Disturbance:
     time_error: float
 
 
-def _mean(x: Floats) -> Floats:
+def average_correlation(x: Floats) -> Floats:
     """Average e^(−|s−s'|) over two instants of an interval of length x."""
     return np.where(x > 1e-4, 2.0 * (x + np.expm1(-x)) / np.maximum(x, 1e-9) ** 2, 1.0 - x / 3.0)

@@ -9,7 +9,7 @@ from motor_identification.diagnosis.candidate_model import tosses
 from motor_identification.diagnosis.evidence.command_evidence import find_falling
 from motor_identification.diagnosis.result import Diagnosis, Finding
 from motor_identification.diagnosis.thresholds import EXPLAINED_GAP, WILD_TIME
-from motor_identification.noise.error_model import Disturbance
+from motor_identification.noise.error_model import Disturbance, average_correlation
 from motor_identification.recording import Floats
 from motor_identification.reporting.numbers import format_measured
 from motor_identification.validation.held_out import HeldOut
@@ -20,6 +20,10 @@ TOO_STRONG = (
     "something else that moves the shaft."
 )
 NO_TORQUE = "What is left is no random torque: none is found beside it ({})."
+IN_A_ROW = (
+    "The rest is random: a torque that lasts for less than a row ({:.3g} s), of which strength and correlation time do "
+    "not show apart; its mean over a row is {:.2g} V RMS."
+)
 QUICK = (
     " It lasts for less than a row and is {:.2g} % of the voltage that was applied: rather noise of the sensor, or "
     "stamps that are off by a part of a row."
@@ -115,6 +119,9 @@ def describe_disturbance(diagnosis: Diagnosis) -> str:
     time = format_measured(found.correlation_time, found.time_error, "s")
     torque = f"The rest is random: a torque of {strength}, correlated over {time}."
     row = min((one.sample_period for one in diagnosis.after.recordings), default=0.0)
+    if found.rms_error > found.rms_voltage and 0.0 < found.correlation_time < row:
+        mean = found.rms_voltage * float(np.sqrt(average_correlation(np.array(row / found.correlation_time))))
+        return IN_A_ROW.format(row, mean)
     strong = TOO_STRONG.format(largest) if found.rms_voltage > largest else ""
     if not strong and found.rms_voltage > MUCH * largest and found.correlation_time < row:
         strong = QUICK.format(100.0 * found.rms_voltage / largest)

@@ -20,6 +20,22 @@ def test_a_random_torque_is_said_with_its_strength(variants: dict[Verdict, Diagn
         assert "random" not in summarize_diagnosis(replace(variants[verdict], disturbance=None))
 
 
+@pytest.mark.parametrize(("error", "rows", "apart"), [(0.09, 0.2, True), (0.11, 0.2, False), (0.11, 1.2, True)])
+def test_a_torque_that_lasts_for_less_than_a_row_is_told_by_its_mean_over_one(
+    variants: dict[Verdict, Diagnosis], error: float, rows: float, apart: bool
+) -> None:
+    """Of an independent simulator's motor without any it was "0.06 ± 0.23 V RMS, correlated over 0.0004 ± 0.0027 s"."""
+    one = variants[Verdict.EXPLAINED]
+    row = min(recording.sample_period for recording in one.after.recordings)
+    text = summarize_diagnosis(replace(one, disturbance=Disturbance(0.1, error, rows * row, 0.1)))
+    assert ("a torque of 0.1" in text) is apart
+    mean = 0.1 * np.sqrt(2.0 / 5.0 * (1.0 - (1.0 - np.exp(-5.0)) / 5.0))  # of what decays five times over a row
+    assert (
+        f"less than a row ({row:.3g} s), of which strength and correlation time do not show apart" in text
+    ) is not apart
+    assert (f"its mean over a row is {mean:.2g} V RMS." in text) is not apart
+
+
 def beside_torque(one: Diagnosis, share: float, rows: float) -> str:
     """What is said of a torque of a share of the largest voltage that lasts for so many rows."""
     largest = max(float(np.abs(recording.voltage).max()) for recording in one.after.recordings)
