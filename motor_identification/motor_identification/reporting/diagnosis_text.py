@@ -118,12 +118,16 @@ def _describe_gap(diagnosis: Diagnosis) -> str:
 
 
 def _describe_found(findings: Sequence[Finding], sure: bool = True) -> str:
-    """Say which effects were missing; not one of no size that is there because another cannot be without it."""
-    implied = {EFFECT_BY_NAME[one.effect].implies for one in findings}
-    said = [one for one in findings if one.effect not in implied or not _is_of_no_size(one)]
-    each = [f"{effect_name(one.effect)} ({format_parameters(one)})" for one in said]
+    """Say which effects were missing."""
+    each = [f"{effect_name(one.effect)} ({format_parameters(one)})" for one in findings]
     were = " was missing" if len(each) == 1 else " were missing"
     return capitalize(join_names(each) + (were if sure else " may be missing"))
+
+
+def _list_named(findings: Sequence[Finding]) -> list[Finding]:
+    """List the findings that are named: not one of no size that is there because another cannot be without it."""
+    implied = {EFFECT_BY_NAME[one.effect].implies for one in findings}
+    return [one for one in findings if one.effect not in implied or not _is_of_no_size(one)]
 
 
 def _is_of_no_size(finding: Finding) -> bool:
@@ -134,7 +138,7 @@ def _is_of_no_size(finding: Finding) -> bool:
 
 def _explained(diagnosis: Diagnosis) -> str:
     model = "it" if len(diagnosis.findings) == 1 else "them"
-    text = f"{_describe_found(diagnosis.findings)}. With {model}, {_describe_gap_reduction(diagnosis)}."
+    text = f"{_describe_found(_list_named(diagnosis.findings))}. With {model}, {_describe_gap_reduction(diagnosis)}."
     rest = (describe_few_values(diagnosis), describe_disturbance(diagnosis))
     parts = (text, *rest, _describe_undetermined(diagnosis), _describe_untestable(diagnosis))
     return " ".join(part for part in parts if part)
@@ -189,7 +193,8 @@ def _describe_nearest(diagnosis: Diagnosis) -> str:
 
 def _describe_findings(diagnosis: Diagnosis) -> str:
     """Say what is missing, what of it has no determined size, and what this recording cannot distinguish."""
-    clear = [one for one in diagnosis.findings if not (one.ambiguous_with or one.sensor_may_lag)]
+    named = _list_named(diagnosis.findings)
+    clear = [one for one in named if not (one.ambiguous_with or one.sensor_may_lag)]
     vague = list_vague(clear)
     sized = [one for one in clear if one not in vague]
     unsure = diagnosis.is_of_no_motor or diagnosis.time_limit or find_falling(diagnosis.after) is not None
@@ -199,7 +204,7 @@ def _describe_findings(diagnosis: Diagnosis) -> str:
     parts = [f"{_describe_found(sized, sure)}."] if sized else []
     parts += [f"{_describe_found(vague, sure=False)}; this recording does not tell how much."] if vague else []
     missing = "is missing" if sure else "may be missing"
-    for one in diagnosis.findings:
+    for one in named:
         if one.ambiguous_with or one.sensor_may_lag:
             names = join_names([effect_name(name) for name in (one.effect, *one.ambiguous_with)], "or")
             parts.append(f"{capitalize(names)} {missing}{_describe_rival_sensor(one)}.")

@@ -175,6 +175,9 @@ def test_what_has_no_size_and_is_implied_is_not_said_to_be_missing(
     for verdict in (Verdict.EXPLAINED, Verdict.UNDECIDED):
         text = summarize_diagnosis(replace(one, verdict=verdict, findings=(friction, second)))
         assert ("Coulomb friction" in text) is said and ("were missing" in text) is said and "0.46" in text
+    unsure = replace(second, ambiguous_with=("torque_ripple",))
+    text = summarize_diagnosis(replace(one, verdict=Verdict.UNDECIDED, findings=(friction, unsure)))
+    assert ("Coulomb friction" in text) is said and "or torque ripple is missing" in text
 
 
 def test_where_nothing_was_held_out_the_gap_is_no_validation(variants: dict[Verdict, Diagnosis]) -> None:
