@@ -5,6 +5,7 @@ from pathlib import Path
 
 from motor_identification.logs.columns.guess import guess_forms
 from motor_identification.logs.columns.motion.direction import join_two_ways
+from motor_identification.logs.columns.motion.edge_periods import read_edge_periods
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.csv.graph_export import name_plots
 from motor_identification.logs.csv.mending import mend_table, take_off_units
@@ -85,6 +86,7 @@ def _read_motors(given: Table, said: Said) -> tuple[list[Motor], list[str]]:
     if said.constant_voltage is not None:
         table = give_voltage(table, said.constant_voltage)
         said = replace(said, voltage=CONSTANT)
+    table, said = read_edge_periods(table, said)
     filled = fill_gaps(table if said.motors else join_two_ways(table, said.voltage))
     guess = guess_forms(filled.table, said)
     motors = []

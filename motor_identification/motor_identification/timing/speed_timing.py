@@ -194,7 +194,7 @@ def _find_periods(shaper: Shaper, other: Timing, least: float = -inf) -> Timing 
     counted = any(sensor.step > 0.0 or sensor.frame > 0.0 for sensor in sensors)
     if counted or are_coarse(shaper.recordings) or not _are_open(shaper.recordings):
         return None
-    instants = (OTHERS[0], OTHERS[2]) if other.is_early else (OTHERS[0],)
+    instants = (OTHERS[0], OTHERS[2]) if other.is_early and not _are_voltages_said(shaper) else (OTHERS[0],)
     found, timing = max(
         ((find_likeliest_slot(shaper, one, other), one) for one in instants), key=lambda one: one[0].gain
     )
@@ -215,6 +215,8 @@ def _choose_instants(shaper: Shaper, slot: float) -> Timing:
 
     Until them only where the motion comes too early otherwise, and by more than such times are sure of.
     """
+    if _are_voltages_said(shaper):
+        return OTHERS[0]
     later, early = (shaper.fit(replace(timing, slot=slot)) for timing in (OTHERS[0], OTHERS[2]))
     row = min(recording.info.sample_period for recording in shaper.recordings)
     too_early = later.delay <= LEAST_DELAY * row and early.delay < SURELY_EARLY * row
@@ -233,7 +235,7 @@ def _find_instants(shaper: Shaper) -> Timing | None:
     least = LEAST_DELAY * row
     assumed = shaper.fit(ASSUMED)
     best, fitted = ASSUMED, assumed
-    early = assumed.delay <= least
+    early = assumed.delay <= least and not _are_voltages_said(shaper)
     others = [(timing, shaper.fit(timing)) for timing in (OTHERS if early else OTHERS[:1])]
     if early and others[-1][1].delay <= least and shaper.fit(TOO_EARLY).delay <= least:
         return None  # earlier than any row says: not for its timing
@@ -245,6 +247,11 @@ def _find_instants(shaper: Shaper) -> Timing | None:
     # With a dead time that brings it back to the row's own instant, none is early: it is another mean than a row's.
     back = best.is_early and best.lag * row + fitted.delay > -least
     return OTHERS[0] if back and measure_gain(assumed.residuals, others[0][1].residuals) > 0.0 else best
+
+
+def _are_voltages_said(shaper: Shaper) -> bool:
+    """Decide whether somebody said of all recordings from when on the voltages of their rows hold."""
+    return all(one.info.source == "import" and not one.info.voltage_assumed for one in shaper.recordings)
 
 
 def _are_open(recordings: Sequence[Recording]) -> bool:

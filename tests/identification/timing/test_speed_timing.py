@@ -62,6 +62,10 @@ def test_a_row_with_the_voltage_until_it_is_told() -> None:
     late = with_voltage_of_next_row(noisy(0.05))
     found = timing_of(check(late))
     assert found is not None and (found.window, found.lag) == (1.0, -0.5)
+    unsaid = describe(late, source="import", voltage_assumed=True)
+    assert timing_of(check(unsaid)) == found
+    said = timing_of(check(describe(unsaid, voltage_assumed=False)))  # --no-voltage-before
+    assert said is None or not said.is_early
     assert timing_of(check(with_voltage_of_next_row(late))) is None  # no log is two rows late: for another reason
     found = timing_of(check(with_voltage_of_next_row(noisy(0.05, instant=True))))
     assert found is not None and (found.window, found.lag) == (INSTANT, -1.0)  # without any dead time left

@@ -183,3 +183,49 @@ def test_counts_that_answer_voltages_before_their_rows_need_no_effect_for_it(
     start, selected = select_as_timed(first, Request(), reporter, limit)  # type: ignore[arg-type]
     assert start.timing == (UNTIL if taken else None)
     assert selected.finished is (time or not told or not complete)
+
+
+EARLY = OTHERS[2]
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "effects", "complete", "above", "taken"),
+    [
+        (EARLY, OTHERS[0], (), True, False, True),
+        (EARLY, None, (), True, False, True),
+        (EARLY, UNTIL, (), True, False, False),  # which are those before, too
+        (OTHERS[0], ASSUMED, (), True, False, False),
+        (EARLY, OTHERS[0], ("transport_delay",), True, False, False),
+        (EARLY, OTHERS[0], ("dead_zone",), True, False, False),
+        (EARLY, OTHERS[0], (), False, False, False),
+        (EARLY, OTHERS[0], (), True, True, False),  # more is left than the sensor leaves
+    ],
+)
+def test_a_lag_that_undoes_the_voltages_before_is_none(
+    monkeypatch: pytest.MonkeyPatch,
+    before: Timing,
+    after: Timing | None,
+    effects: tuple[str, ...],
+    complete: bool,
+    above: bool,
+    taken: bool,
+) -> None:
+    """A motor without a dead time was read a row late, and had one of 0.93 of a row."""
+    first_gap, other_gap = 0.28, 0.32
+    selections = iter([(("transport_delay",), first_gap, True, False), (effects, other_gap, complete, above)])
+
+    def select(*_: Any) -> Any:
+        found, gap, done, over = next(selections)
+        model = SimpleNamespace(held=SimpleNamespace(gap=gap), above_floor=over, complete=done)
+        return SimpleNamespace(selection=SimpleNamespace(model=model), effects=found, finished=True)
+
+    timings = iter([before, after])
+    monkeypatch.setattr(timed_selection, "find_timing_beside", lambda *_, **__: next(timings))
+    monkeypatch.setattr(timed_selection, "select_in_time", select)
+    monkeypatch.setattr(
+        timed_selection, "begin_as_timed", lambda one, timing, *_: SimpleNamespace(selection=None, timing=timing)
+    )
+    limit = SimpleNamespace(begin_with=lambda _: None, begin_again=lambda: True)
+    reporter = SimpleNamespace(stopped=lambda: False, beyond=lambda _: None)
+    start, _ = select_as_timed(SimpleNamespace(selection=None), Request(), reporter, limit)  # type: ignore[arg-type]
+    assert start.timing == (after if taken else before)

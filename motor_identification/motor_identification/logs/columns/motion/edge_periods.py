@@ -1,0 +1,100 @@
+"""Make speeds of times between edges: `period_us`, as boards log that time what an encoder's last two edges took."""
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_identification.logs.columns.clock import guess_time_unit
+from motor_identification.logs.columns.drive import drives
+from motor_identification.logs.columns.heading import Heading, read_heading
+from motor_identification.logs.columns.motion.direction import BACKWARD, NEITHER, WORDS, is_backward
+from motor_identification.logs.columns.said import Said
+from motor_identification.logs.columns.vocabulary import MOVES, Quantity, words_of
+from motor_identification.logs.csv.table import Table
+from motor_identification.logs.form import TIME_UNITS, Kind
+from motor_model.errors import RecordingError
+
+Floats = NDArray[np.float64]
+
+PERIODS = words_of("period interval between periode periodo période")
+OF_EDGES = words_of("edge edges pulse pulses tick ticks encoder enc hall speed motor wheel capture")
+OF_ROWS = words_of("sample sampling loop cycle row control pwm")  # whose periods are no motion
+AS_ROWS, MOSTLY = 0.02, 0.8  # relative: periods that are so near to the times from row to row, in most rows, are those
+
+
+def read_edge_periods(table: Table, said: Said) -> tuple[Table, Said]:
+    """Read a column of times between edges as speeds in counts a second, with the signs of a direction beside it.
+
+    Only where that is all the motion that a log has, or the user said that it is; 0 is a motor that stands.
+    """
+    column = None if said.motors or (said.kind, said.unit) not in ((None, None), (Kind.SPEED, None)) else said.motion
+    if said.motion and column is None:
+        return table, said
+    headings = [read_heading(name) for name in table.names]
+    able = [one for one in headings if is_edge_period(one) and column in (None, one.name)]
+    moves = any(one.quantity in MOVES for one in headings)
+    if len(able) != 1 or (moves and column is None):
+        return table, said
+    (heading,) = able
+    try:
+        period = table.numbers(heading.name)
+    except RecordingError:  # told by whoever reads it
+        return table, said
+    if not np.any(period) or _are_steps(table, headings, period * _seconds(heading), said):
+        return table, said
+    speed = np.divide(1.0, period * _seconds(heading), out=np.zeros(len(period)), where=period != 0.0)
+    speed, signs = (speed, "") if np.any(period < 0.0) else _give_signs(table, headings, speed)
+    name = f"1 / {heading.name} (count/s)"
+    cells = {other: cell for other, cell in table.cells.items() if other != heading.name}
+    note = (
+        f"{heading.name} is the time between two edges: their number a second is the speed{signs} (assumed; otherwise "
+        "say which column the motion is)."
+    )
+    made = replace(table, cells={**cells, name: speed}, notes=(*table.notes, note))
+    return made, replace(said, motion=name if said.motion else None)
+
+
+def is_edge_period(heading: Heading) -> bool:
+    """Tell whether a name is that of times between edges: `period_us`, `edge_interval_ms`, `pulsePeriod`."""
+    words = set(heading.words)
+    timed = heading.unit in TIME_UNITS
+    return bool(timed and words & PERIODS and words <= PERIODS | OF_EDGES and not words & OF_ROWS)
+
+
+def _seconds(heading: Heading) -> float:
+    """Give the unit of a column of times [s]."""
+    return TIME_UNITS[heading.unit] * 1e-9
+
+
+def _are_steps(table: Table, headings: list[Heading], period: Floats, said: Said) -> bool:
+    """Whether periods [s] of shape (K,) are those from row to row, or nothing else says when the rows were."""
+    if said.sample_period is not None:
+        return False
+    clocks = [one for one in headings if one.quantity is Quantity.TIME and not is_edge_period(one)]
+    clocks = [one for one in headings if one.name == said.time] if said.time else clocks
+    if len(clocks) != 1:
+        return True
+    try:
+        time = table.numbers(clocks[0].name)
+    except RecordingError:  # times of day
+        return False
+    unit = clocks[0].unit if clocks[0].unit in TIME_UNITS else guess_time_unit(time)[0]
+    steps = np.diff(time) * TIME_UNITS[unit] * 1e-9
+    return bool(np.mean(np.abs(period[1:] - steps) <= AS_ROWS * steps) > MOSTLY)
+
+
+def _give_signs(table: Table, headings: list[Heading], speed: Floats) -> tuple[Floats, str]:
+    """Give speeds, shape (K,), the signs of the one column that tells a direction; as they are where none does."""
+    told = [one.name for one in headings if WORDS & set(one.words)]
+    driving = [one.name for one in headings if drives(one)]
+    if len(told) != 1 or len(driving) != 1:
+        return speed, ""
+    (column,), (drive,) = told, driving
+    values = set(np.unique(np.asarray(table.column(column)).astype(np.str_)).tolist())
+    backward = [one for one in values if one.lower() in BACKWARD and (len(values) < 3 or one.lower() not in NEITHER)]
+    if len(backward) != 1 or len(values) > 3:
+        return speed, ""
+    signed = np.where(is_backward(table, column, backward), -speed, speed)
+    signed = signed if float(np.sum(table.numbers(drive) * signed)) >= 0.0 else -signed
+    return signed, f", with the sign of {column}"

@@ -1,0 +1,103 @@
+"""Times between edges are speeds, where they are all the motion that a log has, and no times of rows."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from log_columns import DRIVE, TIME, columns
+
+from motor_identification.logs.columns.heading import read_heading
+from motor_identification.logs.columns.motion.edge_periods import is_edge_period, read_edge_periods
+from motor_identification.logs.columns.said import Said
+from motor_identification.logs.form import Kind
+
+SPEED = 40.0 + 20.0 * np.convolve(np.abs(DRIVE), np.exp(-np.arange(60) / 8.0) / 8.0)[:200]  # [1/s]
+PERIOD = np.rint(1e6 / SPEED)  # [us]
+WAY = (DRIVE > 0.0).astype(float)
+MADE = "1 / period_us (count/s)"
+UNSAID = Said()
+
+
+def read(said: Said = UNSAID, **cells: Any) -> tuple[np.ndarray[Any, Any] | None, Said, tuple[str, ...]]:
+    table, said = read_edge_periods(columns(**cells), said)
+    return table.numbers(MADE) if MADE in table.names else None, said, table.notes
+
+
+@pytest.mark.parametrize(
+    ("name", "is_one"),
+    [
+        ("period_us", True),
+        ("edge_interval_ms", True),
+        ("pulsePeriod_us", True),
+        ("Period (us)", True),
+        ("enc_period_ns", True),
+        ("period", False),  # in no unit
+        ("loop_period_us", False),
+        ("sample_period_ms", False),
+        ("pwm_period_us", False),
+        ("pulse_us", False),  # a servo's
+        ("t_edge_us", False),  # when it came
+    ],
+)
+def test_which_names_are_those_of_times_between_edges(name: str, is_one: bool) -> None:
+    assert is_edge_period(read_heading(name)) is is_one
+
+
+def test_a_time_between_edges_is_a_speed() -> None:
+    period = np.where(TIME < 0.05, 0.0, PERIOD)
+    speed, _, notes = read(t=TIME, pwm=np.abs(DRIVE), period_us=period)
+    assert speed is not None
+    np.testing.assert_allclose(speed[5:], 1e6 / PERIOD[5:], rtol=1e-12)
+    assert not speed[:5].any() and "period_us is the time between two edges" in notes[-1]
+    assert read_heading(MADE).unit == "count/s"
+
+
+@pytest.mark.parametrize("drive", [DRIVE, -DRIVE])
+@pytest.mark.parametrize("way", [WAY, 2.0 * WAY - 1.0, np.where(TIME < 0.05, 0.0, 2.0 * WAY - 1.0)])
+def test_a_direction_beside_it_gives_the_sign_that_goes_with_the_drive(
+    drive: np.ndarray[Any, Any], way: np.ndarray[Any, Any]
+) -> None:
+    """Of 1 and 0, of 1 and -1, and with 0 where the motor stands."""
+    period = np.where(way == 0.0, 0.0, PERIOD) if len(np.unique(way)) == 3 else PERIOD
+    cells = {"t": TIME.astype(str), "u": drive.astype(str), "period_us": period.astype(str)}
+    speed, _, notes = read(**cells, dir=way.astype(int).astype(str))
+    assert speed is not None
+    moving = period > 0.0
+    np.testing.assert_array_equal(np.sign(speed[moving]), np.sign(drive[moving]))
+    assert "with the sign of dir" in notes[-1]
+
+
+def test_signs_of_its_own_are_kept() -> None:
+    speed, _, notes = read(t=TIME, u=DRIVE, period_us=-np.sign(DRIVE) * PERIOD, dir=WAY.astype(int).astype(str))
+    assert speed is not None and "with the sign" not in notes[-1]
+    np.testing.assert_array_equal(np.sign(speed), -np.sign(DRIVE))
+
+
+@pytest.mark.parametrize(
+    ("cells", "said"),
+    [
+        ({"rpm": SPEED}, Said()),  # beside a motion that was logged as one
+        ({}, Said(motion="u")),
+        ({"edge_period_us": 2.0 * PERIOD}, Said()),  # of two motors
+        ({}, Said(kind=Kind.POSITION, motion="period_us")),
+        ({}, Said(kind=Kind.SPEED, motion="period_us", unit="rpm")),
+    ],
+)
+def test_it_is_not_read_where_something_else_is_the_motion(cells: dict[str, np.ndarray[Any, Any]], said: Said) -> None:
+    assert read(said, t=TIME, u=DRIVE, period_us=PERIOD, **cells)[:2] == (None, said)
+
+
+def test_who_says_that_it_is_the_speed_has_it_read_so() -> None:
+    said = Said(kind=Kind.SPEED, motion="period_us")
+    speed, read_as, _ = read(said, t=TIME, u=DRIVE, period_us=PERIOD, rpm=SPEED)
+    assert speed is not None and read_as.motion == MADE
+
+
+@pytest.mark.parametrize(("share", "is_speed"), [(0.85, False), (0.75, True)])
+def test_times_from_row_to_row_are_no_motion(share: float, is_speed: bool) -> None:
+    steps = 0.01 + 0.002 * np.random.default_rng(1).random(200)
+    time = np.concatenate([[0.0], np.cumsum(steps[1:])])
+    period = np.where(np.arange(200) < share * 200, 1e6 * steps, PERIOD)
+    assert (read(t_s=time, u=DRIVE, period_us=period)[0] is not None) is is_speed
+    assert read(u=DRIVE, period_us=PERIOD)[0] is None  # nothing else says when the rows were
+    assert read(Said(sample_period=0.01), u=DRIVE, period_us=PERIOD)[0] is not None
