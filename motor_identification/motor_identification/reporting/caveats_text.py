@@ -116,6 +116,8 @@ def describe_disturbance(diagnosis: Diagnosis) -> str:
     largest = max((float(np.max(np.abs(one.voltage))) for one in diagnosis.after.recordings), default=0.0)
     if found.rms_voltage < NEGLIGIBLE * largest and diagnosis.gap_after > EXPLAINED_GAP * diagnosis.noise_floor:
         return NO_TORQUE.format(strength)
+    if found.rms_voltage < min(NEGLIGIBLE * largest, found.rms_error):  # and the sensor leaves the rest
+        return ""
     time = format_measured(found.correlation_time, found.time_error, "s")
     torque = f"The rest is random: a torque of {strength}, correlated over {time}."
     row = min((one.sample_period for one in diagnosis.after.recordings), default=0.0)

@@ -113,6 +113,9 @@ def test_a_torque_that_leaves_nothing_is_not_what_is_left(
     text = summarize_diagnosis(replace(one, disturbance=torque, gap_after=gap * one.noise_floor))
     assert ("What is left is no random torque: none is found beside it" in text) is none
     assert ("The rest is random" in text) is not none
+    unsure = replace(torque, rms_error=1.01 * torque.rms_voltage)
+    text = summarize_diagnosis(replace(one, disturbance=unsure, gap_after=gap * one.noise_floor))
+    assert ("The rest is random" in text) is (share > 1e-4)  # else the sensor leaves it
 
 
 @pytest.mark.parametrize("verdict", list(Verdict))
