@@ -71,10 +71,13 @@ def judge_beside_torque(model: Model, hold_out: HoldOut, guess: ErrorModel | Non
 def refine_beside_torque(model: Model, hold_out: HoldOut, begin: Estimate | None = None) -> Model:
     """Fit a model again beside the torque that it leaves itself, less than was left before, where that is better.
 
-    begin: an estimate of the same effects to fit from; from where it is, without.
+    begin: an estimate of the same effects to fit from, whether or not it splits kv; from where it is, without.
     """
     assert model.learned is not None
-    start = model.estimate if begin is None else begin.on(model.estimate.problem)
+    start, problem = model.estimate, model.estimate.problem
+    if begin is not None:
+        known = begin.problem.unknowns
+        start = begin.on(problem.with_effects(known.effects, known.splits_kv))
     plain = validate_model(hold_out, fit_beside_torque(start, model.learned))
     again = judge_beside_torque(plain, hold_out, None, thresholds.FINAL_EVALUATIONS)
     return again if again.likelihood > model.likelihood else model

@@ -73,6 +73,7 @@ def _mark_measured(recording: Recording) -> Bools:
     again = np.diff(speed, prepend=np.nan) == 0.0
     turning = period > 0.0
     new = turning & (~again | (period < row) & _repeat_by_chance(again[turning], period[turning] / row))
+    new &= ~(again & _mark_repeats_of_stops(time / row, speed, period / row, again))
     at = np.flatnonzero(new & ~mark_decays(time, period, row))
     # An edge is a slot's time after the one before: where a value comes sooner, that was the time since one.
     sooner = np.diff(time[at]) < period[at[1:]] - OLDER * row
@@ -83,8 +84,8 @@ def _mark_measured(recording: Recording) -> Bools:
     alike = (before * after > 0.0) & (large < STEADY * small)
     steady = np.append(False, alike) & np.append(alike, False)
     measured = np.zeros(len(time), np.bool_)
-    fresh = (period[at] < FRESH * row) & ~_mark_stops(time[at] / row, speed[at], period[at] / row)
-    measured[at[(fresh | steady) & ~turned]] = True
+    stops = _mark_stops(time[at] / row, speed[at], period[at] / row)
+    measured[at[((period[at] < FRESH * row) | steady) & ~turned & ~stops]] = True
     return measured
 
 
@@ -94,6 +95,16 @@ def _repeat_by_chance(again: Bools, period: Floats) -> bool:
     again: values (N,) that are those before. period: [rows] of the same shape; with two edges in a row a value is new.
     """
     return bool(np.count_nonzero(again[period < FRESH]) > MOST_REPEATED * np.count_nonzero(period < FRESH))
+
+
+def _mark_repeats_of_stops(time: Floats, speed: Floats, period: Floats, again: Bools) -> Bools:
+    """Mark rows (K,) whose value came so near to a stop or a turn that it is the old one where it comes again.
+
+    Of times and periods (K,) [rows]; again: whether a row repeats the value before, by chance or as no edge came.
+    """
+    first = np.flatnonzero(~again)
+    stops = _mark_stops(time[first], speed[first], period[first])
+    return stops[np.cumsum(~again) - 1]
 
 
 def _mark_turns(time: Floats, speed: Floats, period: Floats, zeros: Integers) -> Bools:

@@ -77,6 +77,33 @@ def test_a_value_before_a_stop_or_a_turn_may_be_an_old_one(values: list[float], 
         assert bool(np.any(np.abs(ends - 21.8 * row) < 0.01 * row)) is measured  # 0.2 rows before its own
 
 
+@pytest.mark.parametrize(
+    ("values", "measured"),
+    [
+        ([14.0, 12.0, 10.0, 10.0, 7.4], True),  # loses 2.6 rad/s in its 0.9 rows, and had one of 10
+        ([14.0, 12.0, 10.0, 10.0, 7.1], False),
+        ([14.0, 13.0, 10.0, 10.0, 9.0], False),
+        ([14.0, 12.0, 10.0, 10.0, -7.0], False),
+    ],
+)
+@pytest.mark.parametrize("rows", [1, 2])
+def test_a_value_that_stays_before_a_stop_or_a_turn_is_an_old_one(
+    values: list[float], measured: bool, rows: int
+) -> None:
+    """Also where values of whole ticks often repeat by chance: one that stayed for 8 ms was 13 times too fast."""
+    recording = timed()
+    row, count = recording.info.sample_period, len(recording)
+    for sign in (1.0, -1.0):
+        speed = np.full(count, sign * values[-1])
+        speed += 1e-3 * np.random.default_rng(5).standard_normal(count)
+        speed[:200] = sign * (20.0 + np.round(0.5 * np.random.default_rng(4).standard_normal(200)))  # whole ticks
+        values_of_it = [*values[:2], *[values[2]] * rows, *values[3:]]
+        speed[200 : 200 + len(values_of_it)] = sign * np.array(values_of_it)
+        logged = replace(recording, speed=speed, edge_period=divide_slot(9.0 * row, speed))
+        ends = make_pulse_intervals(logged).time / row
+        assert bool(np.any(np.abs(ends - (202 + rows - 0.45)) < 0.01)) is measured
+
+
 @pytest.mark.parametrize("period", [0.4, 0.9])
 @pytest.mark.parametrize("chance", [0.0, 0.5 * MOST_REPEATED, 1.5 * MOST_REPEATED])
 def test_a_value_that_repeats_is_an_old_one_where_new_ones_never_do(chance: float, period: float) -> None:
