@@ -56,6 +56,7 @@ class Info:
     gear_ratio: float = 0.0  # encoder turns per turn of the output, which speeds and angles are of; 0: none
     voltage_assumed: bool = False  # of an imported log: nobody said that a voltage holds from its sample on
     rows_said: bool = False  # of an imported log: somebody said by which length of a row its speeds were divided
+    speed_said: bool = False  # of an imported log: somebody said over which window its speeds are means, or how old
 
     @property
     def gear(self) -> Fraction:

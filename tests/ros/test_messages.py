@@ -8,7 +8,7 @@ from motor_ros.messages import info_message, info_of, time_message
 
 
 def test_an_info_comes_back() -> None:
-    for info in (Info(name="wheel"), Info(source="import", voltage_assumed=True, rows_said=True)):
+    for info in (Info(name="wheel"), Info(source="import", voltage_assumed=True, rows_said=True, speed_said=True)):
         assert info_of(info_message(info, time_message(5))) == info
 
 

@@ -168,6 +168,7 @@ def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log
         motion.info,
         voltage_assumed=form.voltage_before is None and not found,
         rows_said=form.nominal_period is not None,
+        speed_said=form.speed_window is not None or form.speed_lag is not None,
     )
     return Log(info, runs, (about, *said, *motion.findings, applied, *rest, *still))
 

@@ -138,7 +138,7 @@ def is_voltage_open(recording: Recording) -> bool:
 def is_open(recording: Recording) -> bool:
     """Decide whether a recording is of speeds of which nobody said when they were made, nor that they are counts.
 
-    A window of one row that ends there, said by hand, is what is assumed, and open as that is.
+    A recording that is no import may have a window of one row that ends there as whatever it is: that is open, too.
     """
     info = recording.info
     unsaid = info.measurement is Measurement.SPEED and not info.edges_per_revolution and is_assumed(info)

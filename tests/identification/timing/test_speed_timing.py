@@ -206,6 +206,8 @@ def test_what_was_said_is_believed() -> None:
     assert timing_of(early) is not None
     assert timing_of(describe(early, speed_window=0.5 * row)) is None
     assert timing_of(describe(early, speed_lag=0.0)) is None
+    assert timing_of(describe(early, speed_window=row, speed_lag=0.5 * row)) is not None
+    assert timing_of(describe(early, speed_window=row, speed_lag=0.5 * row, speed_said=True)) is None
     assert timing_of(describe(early, edges_per_revolution=96)) is None
     assert timing_of(early, describe(early, speed_lag=0.0)) is None
     assert timing_of(early.between(0.0, 0.8)) is None  # too few to tell

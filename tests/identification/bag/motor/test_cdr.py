@@ -110,7 +110,7 @@ INFO = Info("wheel", "hardware", Measurement.COUNTS, 2800, False, 1e-6, 0.001, 0
 
 
 def test_info_comes_back_in_all_its_fields() -> None:
-    for info in (INFO, replace(INFO, source="import", voltage_assumed=True, rows_said=True)):
+    for info in (INFO, replace(INFO, source="import", voltage_assumed=True, rows_said=True, speed_said=True)):
         data = serialize_message(info_message(info, time_message(5)))
         assert decode_info(data, INFO_DEFINITION) == info
 

@@ -90,7 +90,7 @@ def test_an_import_says_it_and_lets_it_be_said(tmp_path: Path) -> None:
     for said in (None, False):
         log = read_log(tmp_path / "log.csv", replace(FORM, nominal_period=said))
         assert any("--no-nominal-period" in line for line in log.findings) == (said is None)
-        assert log.info.rows_said is (said is not None)
+        assert log.info.rows_said is (said is not None) and not log.info.speed_said
         speeds[said] = np.array([one.speed for one in log.runs[0].samples])
     assert np.std(np.diff(speeds[None])[1:]) < 0.1 * np.std(np.diff(speeds[False])[1:])
     window = read_log(tmp_path / "log.csv", replace(FORM, speed_window=0.01))  # somebody knows what they are
