@@ -16,6 +16,7 @@ from motor_identification.logs.rows.drive.coded_rows import drop_coded_rows
 from motor_identification.logs.rows.drive.late_start import drop_late_start
 from motor_identification.logs.rows.drive.logged_levels import split_between_levels
 from motor_identification.logs.rows.drive.lost_counts import caution_lost_counts
+from motor_identification.logs.rows.drive.lost_rows import read_speeds_where_rows_are_lost
 from motor_identification.logs.rows.drive.unpowered_end import drop_unpowered_end
 from motor_identification.logs.rows.drive.unpowered_start import drop_unpowered_start
 from motor_identification.logs.rows.drive.unread_start import drop_unread_start
@@ -83,6 +84,7 @@ def read_motor(table: Table, form: CsvForm) -> Log:
         RecordingError: the table cannot be used as it is; the sentence names line and column.
     """
     signals, coded = drop_coded_rows(read_signals(table, form, split_by_column(table, form.split)), table, form)
+    signals, form, lost = read_speeds_where_rows_are_lost(signals, form)
     info = Info(
         name=form.name,
         source="import",
@@ -93,7 +95,7 @@ def read_motor(table: Table, form: CsvForm) -> Log:
     )
     log = _steady_log(form, info, signals) if form.time is None else _timed_log(table, form, info, signals)
     _check_ranges(table.path, log.info)
-    return replace(log, findings=(*table.notes, *coded, *log.findings))
+    return replace(log, findings=(*table.notes, *coded, *lost, *log.findings))
 
 
 def _check_ranges(path: Path, info: Info) -> None:

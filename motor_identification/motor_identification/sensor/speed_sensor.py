@@ -116,7 +116,8 @@ def _find_window(recording: Recording) -> tuple[float, float]:
 
 def is_assumed(info: Info) -> bool:
     """Tell whether nobody said what a speed is the mean over: an importer takes the sample period."""
-    return not info.speed_said and abs((info.speed_window or info.sample_period) - info.sample_period) <= SAME_PERIOD * info.sample_period
+    own = info.speed_window or info.sample_period
+    return not info.speed_said and abs(own - info.sample_period) <= SAME_PERIOD * info.sample_period
 
 
 def find_noise(

@@ -27,6 +27,7 @@ from motor_identification.sensor.pulses.pulse_periods import (
     STEPS as FINE_STEPS,
 )
 from motor_identification.sensor.pulses.timer_ticks import list_slots
+from motor_identification.sensor.speed_sensor import find_speed_sensor
 from motor_identification.sensor.value_lattice import find_lattice
 from motor_identification.timing.error_likelihood import measure_log_likelihood
 from motor_identification.timing.shaped_fit import ShapedFit, Shaper
@@ -63,9 +64,14 @@ def find_shown_slot(recordings: Sequence[Recording]) -> float:
 
 
 def find_stays_slot(recordings: Sequence[Recording]) -> float:
-    """Find the slot [rad] by how long values stay, that of whole ticks where these are near; 0 where none shows."""
-    slot = _find_slot(find_slot_by_stays, recordings)
-    near = [one for one in list_tick_slots(recordings) if abs(one - slot) < SAME_SLOT * slot]
+    """Find the slot [rad] by how long values stay, that of whole ticks where these are near; 0 where none shows.
+
+    Nor does counts' of single rows: they stay, too, while a motor turns evenly.
+    """
+    ticks = list_tick_slots(recordings)
+    timed = [one for one in recordings if ticks or find_speed_sensor(one).step == 0.0]
+    slot = _find_slot(find_slot_by_stays, timed)
+    near = [one for one in ticks if abs(one - slot) < SAME_SLOT * slot]
     return min(near, key=lambda one: abs(one - slot), default=slot)
 
 

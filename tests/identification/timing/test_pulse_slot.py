@@ -77,6 +77,13 @@ def test_a_slow_motor_shows_the_slot_by_its_stays() -> None:
     assert (found.window, found.lag, found.slot) == (INSTANT, 0.0, find_stays_slot([recording]))
 
 
+@pytest.mark.parametrize("step", [0.0, 0.09])
+def test_counts_that_stay_show_none(monkeypatch: pytest.MonkeyPatch, without_ticks: None, step: float) -> None:
+    """Of counts of single rows, 1,960 a turn, it was 0.1 rad, and an inductance was named that the motor has not."""
+    monkeypatch.setattr(pulse_slot, "find_speed_sensor", lambda _: SimpleNamespace(step=step))
+    assert (find_stays_slot([logged(12)]) > 0.0) is (step == 0.0)
+
+
 def test_a_fast_motor_shows_it_by_what_comes_late() -> None:
     recording = logged(48)
     assert find_stays_slot([recording]) == 0.0
