@@ -104,7 +104,7 @@ def _mark_repeats_of_stops(time: Floats, speed: Floats, period: Floats, again: B
     """
     first = np.flatnonzero(~again)
     stops = _mark_stops(time[first], speed[first], period[first])
-    return stops[np.cumsum(~again) - 1]
+    return np.asarray(stops[np.cumsum(~again) - 1])
 
 
 def _mark_turns(time: Floats, speed: Floats, period: Floats, zeros: Integers) -> Bools:

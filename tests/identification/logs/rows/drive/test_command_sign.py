@@ -9,8 +9,10 @@ from scipy.signal import lfilter
 
 from motor_identification.logs.form import CsvForm, Kind
 from motor_identification.logs.motion import read_motion
+from motor_identification.logs.rows.drive import command_sign
 from motor_identification.logs.rows.drive.command_sign import (
     AGAINST,
+    AT_SPEED,
     BEHIND,
     FEWEST_TURNS,
     take_off_commands_sign,
@@ -97,6 +99,15 @@ def test_few_rows_in_a_long_log_that_turn_on_against_the_voltage_are_a_motors_ow
 def test_a_few_turns_tell_nothing(turns: int, told: bool) -> None:
     volts = np.where(np.arange(600) * (turns + 1) // 600 % 2, -4.0, 4.0)
     assert (take_off_commands_sign(signed(volts, turn(volts, 0.5))) is not None) is told
+
+
+@pytest.mark.parametrize(("share", "told"), [(AT_SPEED, True), (0.8, True), (1.0, False)])
+def test_turns_of_a_motor_that_is_slow_by_then_tell_nothing(
+    monkeypatch: pytest.MonkeyPatch, share: float, told: bool
+) -> None:
+    """A tachogenerator was said to be one channel: coasted down to 5 % of its speed, it went the other way at once."""
+    monkeypatch.setattr(command_sign, "AT_SPEED", share)
+    assert (take_off_commands_sign(signed(VOLTS, SPEEDS)) is not None) is told
 
 
 @pytest.mark.parametrize("kind", [Kind.COUNT, Kind.SPEED])
