@@ -99,6 +99,22 @@ def test_many_rows_ask_less_of_each_for_half_a_row_than_for_a_voltage_of_the_nex
     assert _find_instants(_make_shaper(10_000, (*gains, 0.0), 0.2)).lag == lag  # type: ignore[union-attr]
 
 
+@pytest.mark.parametrize(
+    ("gains", "step", "lag"),
+    [
+        ((110.0, 176.0), 0.0, 0.0),  # by less than many rows ask for
+        ((110.0, 176.0), 0.1, -0.5),
+        ((110.0, 109.0), 0.1, 0.0),
+        ((10.0, 60.0), 0.1, 0.5),  # for what is assumed is right, for counts too, where no other is much likelier
+    ],
+)
+def test_counts_of_a_row_are_no_values_of_an_instant(
+    monkeypatch: pytest.MonkeyPatch, gains: tuple[float, float], step: float, lag: float
+) -> None:
+    monkeypatch.setattr(speed_timing, "find_speed_sensor", lambda _: SimpleNamespace(step=step))
+    assert _find_instants(_make_shaper(3900, (*gains, 0.0), 0.2)).lag == lag  # type: ignore[union-attr]
+
+
 def _make_shaper(rows: int, gains: Sequence[float], dead: float) -> Shaper:
     """Make one whose fits by any other timing than the assumed are likelier by these, which have a dead time [rows]."""
     white = np.random.default_rng(0).standard_normal(rows)
