@@ -1,6 +1,7 @@
 """A diagnosis as a table for a terminal: the gap effect by effect, parameters, and the evidence for every effect."""
 
 from itertools import pairwise
+from math import nan
 
 from motor_identification.diagnosis.result import Diagnosis, Finding
 from motor_identification.reporting.names import effect_name, join_effects, join_names
@@ -24,7 +25,8 @@ def format_diagnosis(diagnosis: Diagnosis) -> str:
         rows.append((f"+ {one.effect}{also}", *_format_gap(diagnosis, one.gap_after), format_parameters(one)))
     rows.append(("noise floor", *_format_gap(diagnosis, diagnosis.noise_floor), ""))
     rises = [said] if (said := describe_rises(diagnosis)) else []
-    return "\n".join((align_columns(rows), *map(_describe_evidence, diagnosis.findings), *rises))
+    evidence = map(_describe_evidence, diagnosis.findings)
+    return "\n".join((align_columns(rows), *evidence, _describe_motor(diagnosis), *rises))
 
 
 def describe_rises(diagnosis: Diagnosis) -> str:
@@ -44,6 +46,15 @@ def _describe_evidence(finding: Finding) -> str:
     """Say where the model without an effect was wrong."""
     names = [effect_name(effect) for effect in (finding.effect, *finding.ambiguous_with)]
     return f"Evidence for {join_names(names, 'or')}: {finding.where}"
+
+
+def _describe_motor(diagnosis: Diagnosis) -> str:
+    """Say kv and ka as the last fit has them, of all motion and beside all that was found."""
+    fit = diagnosis.model
+    both = (
+        format_quantity(name, fit.parameters.value(name), fit.standard_errors.get(name, nan)) for name in ("kv", "ka")
+    )
+    return f"Motor: {', '.join(both)}{', beside what was found' if diagnosis.findings else ''}."
 
 
 def _format_model(fit: Fit) -> str:

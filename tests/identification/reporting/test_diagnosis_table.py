@@ -17,6 +17,20 @@ def test_the_table_has_the_numbers(found: Diagnosis) -> None:
     )
 
 
+def test_the_motor_is_told_beside_what_was_found(found: Diagnosis) -> None:
+    fit = found.model
+    kv, ka = (fit.parameters.value(name) for name in ("kv", "ka"))
+    line = format_diagnosis(found).splitlines()[-1]
+    told = re.fullmatch(
+        r"Motor: kv = ([\d.e-]+) ± ([\d.e-]+) V·s/rad, ka = ([\d.e-]+) ± ([\d.e-]+) V·s²/rad, beside .*", line
+    )
+    assert told is not None
+    numbers = [float(number) for number in told.groups()]
+    wanted = [kv, fit.standard_errors["kv"], ka, fit.standard_errors["ka"]]
+    assert all(abs(one / other - 1.0) < 0.05 for one, other in zip(numbers, wanted, strict=True))
+    assert "beside" not in format_diagnosis(replace(found, findings=())).splitlines()[-1]
+
+
 def test_a_row_above_the_one_before_is_explained(found: Diagnosis) -> None:
     """Rows of 19.4, 30.4 and 7.0 rad/s were no chain: beside a torque the first one's model had left 49."""
     (ks,) = found.findings
