@@ -18,6 +18,7 @@ from motor_identification.diagnosis.selection.rivals import (
     list_replacements,
 )
 from motor_identification.diagnosis.selection.selection import SelectionStep
+from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter
 from motor_identification.validation.hold_out import HoldOut
 
@@ -236,6 +237,41 @@ def test_what_is_replaced_by_what_leaves_more_is_its_rival(
     selection = replace(stub_selection(2.0, step), model=current)
     (left,) = module.try_in_place(selection, step, without, current, SILENT).steps
     assert (left.found.effect, left.rivals) == ("armature_inductance", rivals)
+
+
+@pytest.mark.parametrize(
+    ("effect", "alone", "gap", "share", "rivals"),
+    [
+        ("coast_drive", ABOVE, BELOW, ABOVE, ("coast_drive",)),
+        ("coast_drive", BELOW, BELOW, ABOVE, ()),  # it was less likely alone, too
+        ("coast_drive", ABOVE, ABOVE, ABOVE, ()),  # it leaves more
+        ("coast_drive", ABOVE, BELOW, BELOW, ()),  # beside the torque it is told from the other by far
+        ("dead_zone", ABOVE, BELOW, ABOVE, ()),  # of what holds the motor another rule decides
+    ],
+)
+def test_what_leaves_no_more_and_was_likelier_alone_is_a_rival_of_what_is_likelier_beside_a_torque(
+    monkeypatch: pytest.MonkeyPatch, effect: str, alone: float, gap: float, share: float, rivals: tuple[str, ...]
+) -> None:
+    """A drag was named for certain, and a coasting bridge left less: only what was assumed of the torque told them."""
+    other = "coulomb_friction" if effect == "dead_zone" else "quadratic_drag"
+    without, instead = with_effects(stub_model(5.0, likelihood=-1000.0)), stub_model(2.0, likelihood=0.0)
+    least = (1.0 - thresholds.LITTLE_OF_LEFT) * 1000.0
+    current = with_effects(stub_model(gap * 2.0, likelihood=share * least - 1000.0), effect)
+    plain = stub_model(5.0)
+    step = step_of(stub_test(effect, plain, 2.0, alone * 600.0), stub_test(other, plain, 2.0, 600.0))
+    better = CandidateTest(
+        other, without, with_effects(replace(instead, learned=ErrorModel(0.0, 0.1, 0.01, 1.0)), other)
+    )
+    monkeypatch.setattr(module, "catch_up", lambda current, *_: current)
+    monkeypatch.setattr(module, "start_from_same_size", lambda test, *_: test)
+    monkeypatch.setattr(module, "settle", lambda test, *_: test)
+    monkeypatch.setattr(module, "try_effects", lambda *_: [better])
+    monkeypatch.setattr(module, "_is_as_likely_from_there", lambda *_: False)
+    monkeypatch.setattr(module, "is_own_evidence", lambda *_: False)
+    monkeypatch.setattr(module, "holds_nearly_as_well", lambda *_: False)
+    selection = replace(stub_selection(2.0, step), model=current)
+    (left,) = module.try_in_place(selection, step, without, current, SILENT).steps
+    assert (left.found.effect, left.rivals) == (other, rivals)
 
 
 LEAST_LEAD = thresholds.HOLDING_LEAD * 800.0  # of the evidence below
