@@ -385,6 +385,39 @@ def test_a_rival_that_is_determined_takes_the_place(monkeypatch: pytest.MonkeyPa
 
 
 @pytest.mark.parametrize(
+    ("chance", "complete", "kept"),
+    [
+        (("dead_zone", "coulomb_friction"), True, ()),
+        (("dead_zone",), True, ("coulomb_friction",)),
+        (("dead_zone", "coulomb_friction"), False, ("dead_zone",)),  # something is missing there
+    ],
+)
+def test_a_rival_of_no_size_takes_no_place_where_all_is_explained_without_either(
+    monkeypatch: pytest.MonkeyPatch, chance: tuple[str, ...], complete: bool, kept: tuple[str, ...]
+) -> None:
+    """A drag of 1.4 standard errors gave way to a limit that was none either, and that to the drag: one was named."""
+    before = with_effects(stub_model(2.0, 0.0, likelihood=-20.0))
+    monkeypatch.setattr(StubModel, "complete", property(lambda one: complete or bool(one.effects)))
+    monkeypatch.setattr(determination, "is_chance", lambda effect, model: effect in chance)
+    monkeypatch.setattr(determination, "find_undetermined", lambda model: set(model.effects).intersection(chance))
+    monkeypatch.setattr(determination, "_find_unknown", lambda model: ())
+    monkeypatch.setattr(determination, "drop_step", lambda one, step: replace(one, steps=(), model=before))
+    monkeypatch.setattr(determination, "is_needed", lambda *_: False)
+    monkeypatch.setattr(determination, "is_steady_beside_torque", lambda *_: False)
+    monkeypatch.setattr(
+        determination,
+        "try_effects",
+        lambda model, hold_out, names, *_: [
+            CandidateTest(name, model, with_effects(stub_model(2.0, 0.0), name)) for name in names
+        ],
+    )
+    zone = with_effects(stub_model(2.0, 0.0), "dead_zone")
+    start = Selection((found_step(before, zone, "dead_zone", ("coulomb_friction",)),), zone, fitted()[1], 1)
+    left, names = drop_undetermined(start, SILENT)
+    assert tuple(one.found.effect for one in left.steps) == kept and names == ()
+
+
+@pytest.mark.parametrize(
     ("effect", "at_limit"), [("transport_delay", True), ("encoder_eccentricity", True), ("coast_drive", False)]
 )
 def test_a_limit_of_the_search_is_no_value_but_one_of_physics_is(effect: str, at_limit: bool) -> None:
