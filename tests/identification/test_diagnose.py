@@ -9,17 +9,19 @@ from recorded import as_counts
 from swinging import noisy
 from tiers import keep_fast
 
+from motor_identification import diagnose as module
 from motor_identification.diagnose import Request, Stage, Stopped, diagnose
 from motor_identification.diagnosis.candidate_fit import validate_model
 from motor_identification.diagnosis.candidate_test import likelihood_threshold
 from motor_identification.diagnosis.result import Diagnosis, Verdict
 from motor_identification.diagnosis.selection.selection import Selection
 from motor_identification.diagnosis.start import Start
-from motor_identification.diagnosis.thresholds import FALSE_ALARM_RATE
+from motor_identification.diagnosis.thresholds import FALSE_ALARM_RATE, MOST_TORQUE
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import make_problem
 from motor_identification.experiment import make_plan, simulate_plan
 from motor_identification.measurement.build_intervals import make_intervals
+from motor_identification.noise.error_model import Disturbance
 from motor_identification.noise.likelihood import Noise, estimate_noise, log_likelihood
 from motor_identification.recording import Recording, check, recording_of
 from motor_identification.reporting.diagnosis_text import summarize_diagnosis
@@ -55,6 +57,28 @@ def test_of_a_motor_that_runs_on_at_0_volts_that_is_said_and_no_effect() -> None
     text = summarize_diagnosis(found)
     assert "the motor turns at 60" in text and "in the first 8 s, in which the voltage is 0" in text
     assert "coast" not in text.lower() and text.endswith("No effect was looked for.")
+
+
+@pytest.mark.parametrize(
+    ("seen", "torque", "silent"),
+    [
+        (True, 0.99 * MOST_TORQUE, False),
+        (True, 1.01 * MOST_TORQUE, True),
+        (True, None, False),
+        (False, None, True),
+    ],
+)
+def test_beside_a_torque_that_no_gear_makes_it_is_told_what_comes_nearest(
+    variants: dict[Verdict, Diagnosis], seen: bool, torque: float | None, silent: bool
+) -> None:
+    """A coasting bridge halved the gap, and was not named: three levels leave too few places for what else it needs."""
+    held = replace(variants[Verdict.UNDECIDED].after, seen=seen)
+    largest = max(float(np.max(np.abs(one.voltage))) for one in held.recordings)
+    disturbance = None if torque is None else Disturbance(torque * largest, 0.01, 1.0, 0.1)
+    found = replace(variants[Verdict.UNDECIDED], findings=(), after=held, gap_after=1.0, noise_floor=1.0)
+    assert module._is_silent(replace(found, disturbance=disturbance)) is silent
+    named = variants[Verdict.UNDECIDED]
+    assert not module._is_silent(replace(named, after=held, disturbance=disturbance))
 
 
 SINGLES = {

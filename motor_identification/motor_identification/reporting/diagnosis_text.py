@@ -254,6 +254,7 @@ def _undecided(diagnosis: Diagnosis) -> str:
         parts.insert(0, OUT_OF_TIME.format(diagnosis.time_limit))
     if diagnosis.undetermined:
         parts.append(_describe_undetermined(diagnosis))
+        parts.append("" if diagnosis.findings else _describe_nearest(diagnosis))
     if diagnosis.undetectable and not any(one.ambiguous_with for one in diagnosis.findings):
         parts.append(_describe_untestable(diagnosis))
     return " ".join(part for part in parts if part)

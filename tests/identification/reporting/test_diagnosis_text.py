@@ -250,6 +250,8 @@ def test_what_comes_nearest_is_told_where_nothing_is_named(
     assert "nearest" not in summarize_diagnosis(replace(nothing, nearest=None))
     undecided = summarize_diagnosis(replace(nothing, verdict=Verdict.UNDECIDED))
     assert said in undecided and undecided.startswith("Something may be missing")
+    unsized = replace(nothing, verdict=Verdict.UNDECIDED, undetermined=("load_step",))
+    assert f"does not tell how much. {said}" in summarize_diagnosis(unsized)
     one = replace(nothing, verdict=Verdict.UNDECIDED, after=replace(nothing.after, confirms=False))
     assert said in summarize_diagnosis(one) and "one response does not tell" in summarize_diagnosis(one)
     without = summarize_diagnosis(replace(nothing, verdict=Verdict.UNDECIDED, nearest=None))
