@@ -11,6 +11,7 @@ from motor_identification.diagnosis.result import Diagnosis, Finding
 from motor_identification.diagnosis.thresholds import EXPLAINED_GAP, WILD_TIME
 from motor_identification.noise.error_model import Disturbance, average_correlation
 from motor_identification.recording import Floats
+from motor_identification.reporting.names import effect_name, join_names
 from motor_identification.reporting.numbers import format_measured
 from motor_identification.validation.held_out import HeldOut
 from motor_model.effects import EFFECT_BY_NAME
@@ -45,12 +46,14 @@ NEGLIGIBLE = 1e-4  # of the largest voltage: the RMS of a torque that leaves not
 BREAKAWAY, PEAKS = "breakaway_voltage", 3.0  # standard deviations that a torque reaches now and then
 SUPPLY = (
     "A supply of {:.4g} V is assumed, the most that was applied unless the import said more: of another one "
-    "(import_log --max-voltage) kv and what its bridge does come out otherwise."
+    "(import_log --max-voltage) "
 )
 LOGGED_SUPPLY = (
     "A supply of {:.4g} V is taken, the supply column's median unless the import said another or a row got more: of "
-    "another one (import_log --max-voltage) kv and what its bridge does come out otherwise."
+    "another one (import_log --max-voltage) "
 )
+OTHERWISE = "kv and what its bridge does come out otherwise."
+MAY_EXPLAIN = "{} may explain what is missing."
 GAINS = (
     "From run to run the speed at the same voltage differed by {:.2g} % (RMS), as it does where the supply differs; if "
     "that is a battery, log its voltage."
@@ -94,12 +97,14 @@ def _share_voltages(runs: Sequence[Floats]) -> bool:
 def describe_supply(diagnosis: Diagnosis) -> str:
     """Say which supply a bridge was taken to be on, where a log does not tell and it matters; else empty."""
     names = {name for one in diagnosis.findings for name in (one.effect, *one.ambiguous_with)}
+    near = [name for name in (diagnosis.nearest.effects if diagnosis.nearest else ()) if EFFECT_BY_NAME[name].of_supply]
     imported = [one for one in diagnosis.after.recordings if one.info.source == "import"]
-    if not any(EFFECT_BY_NAME[name].of_supply for name in names) or not imported:
+    if not (near or any(EFFECT_BY_NAME[name].of_supply for name in names)) or not imported:
         return ""
     most = max(imported, key=lambda one: one.info.full_voltage)
     words = LOGGED_SUPPLY if np.any(np.isfinite(most.supply_voltage)) else SUPPLY
-    return words.format(most.info.full_voltage)
+    then = MAY_EXPLAIN.format(join_names([effect_name(name) for name in near])) if near else OTHERWISE
+    return words.format(most.info.full_voltage) + then
 
 
 def describe_likes(diagnosis: Diagnosis) -> str:

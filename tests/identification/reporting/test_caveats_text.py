@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from motor_identification.diagnosis.result import Diagnosis, Verdict
+from motor_identification.diagnosis.result import Diagnosis, Nearest, Verdict
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.measurement.intervals import index_intervals
 from motor_identification.noise.error_model import Disturbance
@@ -189,6 +189,27 @@ def test_the_supply_that_a_log_does_not_tell_is_said_where_it_matters(
     assert ("A supply of 9.6 V is assumed" in said) is (of_supply and source == "import")
     assert ("magnets saturate weakens with the current" in said) is (effect == "supply_sag")
     assert ("brakes a motor that coasts, too" in said) is (effect == "coast_drive")
+
+
+@pytest.mark.parametrize(
+    ("source", "nearest", "said"),
+    [
+        ("import", ("dead_zone", "coast_drive"), True),
+        ("import", ("dead_zone",), False),
+        ("", ("coast_drive",), False),
+        ("import", (), False),
+    ],
+)
+def test_another_supply_may_explain_what_comes_nearest_by_it(
+    variants: dict[Verdict, Diagnosis], source: str, nearest: tuple[str, ...], said: bool
+) -> None:
+    """A coasting bridge on 5 V was outside of the table on 4.66 V, the most that its log had of them."""
+    one = variants[Verdict.UNEXPLAINED]
+    told = [replace(r, info=replace(r.info, source=source, max_voltage=4.66)) for r in one.after.recordings]
+    after, near = replace(one.after, recordings=tuple(told)), Nearest(nearest, 11.2) if nearest else None
+    text = summarize_diagnosis(replace(one, after=after, nearest=near))
+    assert ("A supply of 4.66 V is assumed" in text) is said
+    assert ("(import_log --max-voltage) coast drive may explain what is missing." in text) is said
 
 
 @pytest.mark.parametrize("logged", [True, False])
