@@ -6,14 +6,23 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from motor_identification.logs.columns.clock import SLOWEST, SLOWEST_STEADY, guess_time_unit, row_period, since_1970
+from motor_identification.logs.columns.behaviour.prompt_answer import answers_too_soon
+from motor_identification.logs.columns.clock import (
+    SLOWEST,
+    SLOWEST_STEADY,
+    can_be_longer,
+    guess_time_unit,
+    row_period,
+    since_1970,
+)
 from motor_identification.logs.columns.heading import read_heading
 from motor_identification.logs.columns.motor_form import STEPS_BETWEEN, Rows, make_form, share_of_changes
 from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.roles.roles import Roles, find_roles
 from motor_identification.logs.columns.said import Said
+from motor_identification.logs.columns.vocabulary import Quantity
 from motor_identification.logs.csv.table import Table
-from motor_identification.logs.form import TIME_UNITS, CsvForm, time_unit_size
+from motor_identification.logs.form import TIME_UNITS, CsvForm, Kind, time_unit_size
 from motor_model.errors import RecordingError
 
 _AT_A_RATE = re.compile(r"\d\s*k?hz\b", re.I)  # in the name of a column of times: 8 kHz
@@ -60,6 +69,10 @@ def _rows(table: Table, roles: Roles, said: Said, notes: Notes) -> Rows:
     unit, why = _time_unit(table, roles.time, said)
     if unit == "us" and why and not said.time_unit and _climbs_stairs(table, roles):
         unit, why = "ms", " (as few rows as a static curve has, a level each; otherwise: --time-unit)"
+    if not said.time_unit and (longer := _find_longer_unit(table, roles, said, unit)):
+        shown = f"{row_period(table.numbers(roles.time)) * TIME_UNITS[unit] * 1e-6:.4g} ms"
+        why = f" (in {unit}, rows were {shown} apart, and no motor answers as soon; otherwise: --time-unit)"
+        unit = longer
     if not said.time_unit and _AT_A_RATE.search(roles.time):
         notes.questions.append((roles.time, "counts by a rate: say how many seconds one is (--time-unit S)"))
     if said.sample_period:
@@ -106,6 +119,27 @@ def _climbs_stairs(table: Table, roles: Roles) -> bool:
     if not 1 < len(steps) < MOST_STAIRS or row_period(table.numbers(roles.time or "")) > SLOWEST_STEADY:
         return False
     return bool(np.mean((steps == np.median(steps)) & (steps != 0.0)) > STEPS_BETWEEN)
+
+
+def _find_longer_unit(table: Table, roles: Roles, said: Said, unit: str) -> str:
+    """Find the next longer unit of times without one, where the motion answers too soon in this one; else empty."""
+    units = sorted(TIME_UNITS, key=lambda one: TIME_UNITS[one])
+    place = units.index(unit) + 1
+    if read_heading(roles.time or "").unit in TIME_UNITS or place == len(units):
+        return ""
+    try:
+        values = table.numbers(roles.time or "")
+    except RecordingError:  # times of day
+        return ""
+    period = row_period(values) * 1e-9
+    if not can_be_longer(values) or not 0.0 < period * TIME_UNITS[units[place]] < SLOWEST_STEADY * 1e-3:
+        return ""
+    for pair in roles.pairs:
+        is_speed = said.kind is Kind.SPEED or read_heading(pair.motion).quantity is Quantity.SPEED
+        drive, motion = table.numbers(pair.voltage), table.numbers(pair.motion)
+        if answers_too_soon(drive, motion, is_speed, period * TIME_UNITS[unit]):
+            return units[place]
+    return ""
 
 
 def _is_steady(table: Table, roles: Roles, period: float) -> bool:

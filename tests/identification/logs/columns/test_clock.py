@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from motor_identification.logs.columns.clock import are_days, find_clock, guess_time_unit, runs_forward
+from motor_identification.logs.columns.clock import are_days, can_be_longer, find_clock, guess_time_unit, runs_forward
 
 
 @pytest.mark.parametrize(
@@ -15,7 +15,11 @@ from motor_identification.logs.columns.clock import are_days, find_clock, guess_
         (0.0, 1.0, "ms"),  # 1 kHz, and no log of a row a second
         (8859.0, 11.0, "ms"),
         (17800.0, 1100.0, "ms"),  # a static curve: multiples of 100 are no microseconds
+        (17803.0, 1100.0, "ms"),  # whenever it began
+        (22754.0, 500.0, "ms"),
         (17801.0, 5003.0, "us"),
+        (17801.0, 5000.0, "us"),
+        (17801.0, 503.0, "us"),  # unless the motion tells
         (0.0, 4900.0, "ms"),  # a static curve
         (0.0, 5000.0, "us"),  # 200 Hz of a computer that writes what it wanted
         (0.0, 390_000.0, "us"),
@@ -115,3 +119,9 @@ def test_ticks_of_four_microseconds_are_no_milliseconds() -> None:
         np.cumsum(np.resize([4.0, 4.0, 4.0, 8.0, 12.0, 16.0, 20.0, 4.0], 200)),  # 250 Hz, of which rows are missing
     ):
         assert guess_time_unit(other)[0] == "ms"
+
+
+def test_what_nothing_but_its_rows_tells_may_be_in_a_longer_unit() -> None:
+    assert can_be_longer(503.0 * np.arange(100)) and can_be_longer(0.5 * np.arange(100))
+    assert not can_be_longer(1.76e12 + 5.0 * np.arange(100))
+    assert not can_be_longer(np.cumsum(np.resize([364.0, 368.0, 360.0, 404.0, 412.0, 364.0, 2576.0], 200)))

@@ -146,3 +146,27 @@ def test_electrical_turns_are_told(tmp_path: Path) -> None:
     (tmp_path / "log.csv").write_text("\n".join(["ms_today,duty_cycle,erpm", *rows]))
     found = guess_forms(read_table(tmp_path / "log.csv"), Said(supply_voltage=12.0))
     assert any("erpm, a speed in rpm (of electrical turns" in line for line in found.findings)
+
+
+@pytest.mark.parametrize(
+    ("name", "first", "step", "rows", "unit"),
+    [
+        ("Time", 22754, 503.0, 0, "ms"),  # a speed that is there in the next row, of 0.5 ms
+        ("Time", 22754, 503.0, 20, "us"),
+        ("Time", 0, 0.5, 0, "s"),
+        ("Time", 0, 0.5, 20, "ms"),
+        ("Time", 22754, 5003.0, 0, "us"),
+        ("Time [us]", 22754, 503.0, 0, "us"),
+    ],
+)
+def test_a_motion_that_answers_at_once_tells_the_unit_of_its_times(
+    name: str, first: int, step: float, rows: int, unit: str, tmp_path: Path
+) -> None:
+    times = [first + step * k + (k % 3 if step > 1.0 else 0) for k in range(120)]
+    speeds = [0.0 if k < 40 else 49.0 * (1.0 - np.exp(-(k - 40) / rows) if rows else 1.0) for k in range(120)]
+    lines = [f"{times[k]:.1f},{0 if k < 40 else 75},{speeds[k] + 0.1 * (k % 3):.1f}" for k in range(120)]
+    (tmp_path / "log.csv").write_text("\n".join([f"{name},pwm,speed [rpm]", *lines]))
+    guess = guess_forms(read_table(tmp_path / "log.csv"), Said(supply_voltage=12.0, full_duty=100.0))
+    assert guess.forms[0].time_unit == unit
+    told = "no motor answers as soon; otherwise: --time-unit)" in "".join(guess.findings)
+    assert told is (rows == 0 and unit != "us")
