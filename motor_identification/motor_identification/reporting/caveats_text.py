@@ -128,7 +128,8 @@ def describe_disturbance(diagnosis: Diagnosis) -> str:
     row = min((one.sample_period for one in diagnosis.after.recordings), default=0.0)
     if found.rms_error > found.rms_voltage and 0.0 < found.correlation_time < row:
         mean = found.rms_voltage * float(np.sqrt(average_correlation(np.array(row / found.correlation_time))))
-        return IN_A_ROW.format(row, mean)
+        doubt = QUICK.format(100.0 * mean / largest) if mean > MUCH * largest else ""
+        return IN_A_ROW.format(row, mean) + doubt
     strong = TOO_STRONG.format(largest) if found.rms_voltage > largest else ""
     if not strong and found.rms_voltage > MUCH * largest and found.correlation_time < row:
         strong = QUICK.format(100.0 * found.rms_voltage / largest)

@@ -9,6 +9,7 @@ from motor_identification.diagnosis.result import Diagnosis, Nearest, Verdict
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.measurement.intervals import index_intervals
 from motor_identification.noise.error_model import Disturbance
+from motor_identification.reporting.caveats_text import MUCH
 from motor_identification.reporting.diagnosis_text import summarize_diagnosis
 
 
@@ -34,6 +35,20 @@ def test_a_torque_that_lasts_for_less_than_a_row_is_told_by_its_mean_over_one(
         f"less than a row ({row:.3g} s), of which strength and correlation time do not show apart" in text
     ) is not apart
     assert (f"its mean over a row is {mean:.2g} V RMS." in text) is not apart
+    assert "rather noise of the sensor" not in text
+
+
+@pytest.mark.parametrize(("share", "doubted"), [(0.9, False), (1.1, True)])
+def test_a_torque_within_a_row_whose_mean_is_no_trifle_is_doubted(
+    variants: dict[Verdict, Diagnosis], share: float, doubted: bool
+) -> None:
+    one = variants[Verdict.EXPLAINED]
+    row = min(recording.sample_period for recording in one.after.recordings)
+    largest = max(float(np.abs(recording.voltage).max()) for recording in one.after.recordings)
+    mean = np.sqrt(2.0 / 5.0 * (1.0 - (1.0 - np.exp(-5.0)) / 5.0))
+    rms = share * MUCH * largest / mean
+    text = summarize_diagnosis(replace(one, disturbance=Disturbance(rms, 2.0 * rms, 0.2 * row, row)))
+    assert ("rather noise of the sensor" in text) is doubted
 
 
 def beside_torque(one: Diagnosis, share: float, rows: float) -> str:
