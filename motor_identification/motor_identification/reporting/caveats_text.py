@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 
 from motor_identification.diagnosis.candidate_model import tosses
-from motor_identification.diagnosis.evidence.command_evidence import find_falling
+from motor_identification.diagnosis.evidence.command_evidence import find_falling, find_stopped
 from motor_identification.diagnosis.result import Diagnosis, Finding
 from motor_identification.diagnosis.thresholds import EXPLAINED_GAP, WILD_TIME
 from motor_identification.noise.error_model import Disturbance, average_correlation
@@ -67,6 +67,10 @@ FEW = "Most of that gap is in {} of {:,} values ({}): {:.3g} rad/s is left witho
 FALLING = (
     "The speed falls where the voltage rises, each time: {:.3g} rad/s at {:.3g} V, {:.3g} rad/s at {:.3g} V. No motor "
     "does so: a sensor that misses counts at speed, a supply that gives way, or a load that came each time may."
+)
+STOPPED = (
+    "From {0:.4g} s on{1} the motor stands under voltages that moved it before: switched off, blocked, or its sensor "
+    "silent? Leave that part out (--stop {0:.4g}{2})."
 )
 MOST, NAMED = 0.9, 2  # of a gap's square that is most of it; instants that are named
 MIDDLE = (0.1, 0.9)  # shares of a run's driven samples between which its voltages are said to lie
@@ -158,6 +162,17 @@ def describe_falling(diagnosis: Diagnosis) -> str:
     """Say that a speed falls where the voltage rises, and what may be the cause; empty where it does not."""
     found = find_falling(diagnosis.after)
     return "" if found is None else FALLING.format(found.speed, found.voltage, found.slower, found.higher)
+
+
+def describe_stopped(diagnosis: Diagnosis) -> str:
+    """Say from when on a motor stands that moved under the same voltages before; empty where none does."""
+    recordings = diagnosis.after.recordings
+    found = find_stopped(recordings)
+    if found is None:
+        return ""
+    name = found.recording.uri.rsplit("/", 1)[-1]
+    where, how = (f" in {name}", f", of {name} alone") if len(recordings) > 1 else ("", "")
+    return STOPPED.format(found.begin, where, how)
 
 
 def describe_few_values(diagnosis: Diagnosis) -> str:

@@ -20,6 +20,7 @@ from motor_identification.reporting.caveats_text import (
     describe_few_values,
     describe_gains,
     describe_likes,
+    describe_stopped,
     describe_supply,
 )
 from motor_identification.reporting.diagnosis_table import format_parameters
@@ -79,7 +80,7 @@ def summarize_diagnosis(diagnosis: Diagnosis) -> str:
         seen,
         _next_step(diagnosis),
     )
-    parts = (describe_falling(diagnosis), _SUMMARIES[diagnosis.verdict](diagnosis), *told)
+    parts = (describe_stopped(diagnosis), describe_falling(diagnosis), _SUMMARIES[diagnosis.verdict](diagnosis), *told)
     return " ".join(part for part in parts if part)
 
 

@@ -5,10 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from motor_identification.diagnosis.evidence.command_evidence import Stopped
 from motor_identification.diagnosis.result import Diagnosis, Nearest, Verdict
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.measurement.intervals import index_intervals
 from motor_identification.noise.error_model import Disturbance
+from motor_identification.reporting import caveats_text
 from motor_identification.reporting.caveats_text import MUCH
 from motor_identification.reporting.diagnosis_text import summarize_diagnosis
 
@@ -204,6 +206,21 @@ def test_the_supply_that_a_log_does_not_tell_is_said_where_it_matters(
     assert ("A supply of 9.6 V is assumed" in said) is (of_supply and source == "import")
     assert ("magnets saturate weakens with the current" in said) is (effect == "supply_sag")
     assert ("brakes a motor that coasts, too" in said) is (effect == "coast_drive")
+
+
+@pytest.mark.parametrize("verdict", list(Verdict))
+def test_a_motor_that_was_switched_off_is_said_whatever_the_verdict(
+    monkeypatch: pytest.MonkeyPatch, variants: dict[Verdict, Diagnosis], verdict: Verdict
+) -> None:
+    one, said = variants[verdict], "the motor stands under voltages that moved it before: switched off, blocked"
+    (recording,) = one.after.recordings
+    assert said not in summarize_diagnosis(one)
+    stopped = Stopped(replace(recording, uri="logs/right"), 45.014)
+    monkeypatch.setattr(caveats_text, "find_stopped", lambda recordings: stopped)
+    text = summarize_diagnosis(one)
+    assert text.startswith(f"From 45.01 s on {said}") and "Leave that part out (--stop 45.01)." in text
+    two = caveats_text.describe_stopped(replace(one, after=replace(one.after, recordings=(recording, recording))))
+    assert two.startswith(f"From 45.01 s on in right {said}") and "out (--stop 45.01, of right alone)." in two
 
 
 @pytest.mark.parametrize(

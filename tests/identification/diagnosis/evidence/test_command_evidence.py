@@ -10,7 +10,12 @@ from swinging import noisy
 
 from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis.evidence import command_evidence
-from motor_identification.diagnosis.evidence.command_evidence import find_falling, find_ignored, goes_with_sweep
+from motor_identification.diagnosis.evidence.command_evidence import (
+    find_falling,
+    find_ignored,
+    find_stopped,
+    goes_with_sweep,
+)
 from motor_identification.diagnosis.result import Diagnosis, Verdict
 from motor_identification.discrepancy.structure import CERTAIN, Structure
 from motor_identification.identify import Request
@@ -39,6 +44,41 @@ def wandering() -> Recording:
         walk[k] = 0.995 * walk[k - 1] + random.normal(0.0, 4.0)
     triangle = 2.0 + 10.0 * np.abs((np.linspace(0.0, 3.0, count) % 1.0) - 0.5) * 2.0
     return check(replace(logged, voltage=triangle, speed=200.0 + walk + random.normal(0.0, 6.0, count)))
+
+
+def stepping(last: float, voltage: float = 6.0, rest: float = 0.1, ran: float = 1.0) -> Recording:
+    """Four steps of 1 s to 6 V, 1 s apart, each followed after a rest; the last of them, of so long, by nothing."""
+    logged = noisy(0.5)
+    period = logged.info.sample_period
+    time = period * np.arange(round((8.0 + last) / period))
+    stepped = (time % 2.0 < 1.0) & (time < 8.0)
+    runs = stepped & (time % 2.0 >= rest) & (time % 2.0 < ran)
+    volts = np.where(time < 8.0, 6.0 * stepped, voltage)
+    part = logged.at_rows(np.arange(len(time)) % len(logged))
+    stamps = np.round(1e9 * time).astype(np.int64)
+    return replace(part, sample_time=stamps, voltage=volts, speed=np.where(runs, 100.0, 1.0))
+
+
+@pytest.mark.parametrize(
+    ("logged", "begin"),
+    [
+        (stepping(2.9), 8.0),
+        (stepping(2.9, voltage=-6.0), 8.0),
+        (stepping(2.9, voltage=4.0), None),  # which never moved it
+        (stepping(2.9, voltage=2.0), None),  # which need not
+        (stepping(2.9, rest=0.45), 8.0),
+        (stepping(1.3, rest=0.45), None),  # it rested before each step
+        (stepping(2.9, rest=0.55), None),  # it stands as a rule
+        (stepping(0.5), None),  # a few rows
+        (stepping(15.0), None),  # it rather stands, as at the place that a loop was to hold
+    ],
+)
+def test_a_motor_that_was_switched_off_stands_under_what_moved_it(logged: Recording, begin: float | None) -> None:
+    """A robot's wheel stood for the last 11 s of 56: 148 times the floor, and a voltage limit or a load was offered."""
+    others = [stepping(2.9, voltage=0.0), logged]
+    found = find_stopped(others)
+    assert (None if found is None else found.begin) == (None if begin is None else pytest.approx(begin, abs=0.02))
+    assert found is None or found.recording is logged
 
 
 @pytest.mark.parametrize(
