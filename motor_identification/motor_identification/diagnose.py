@@ -96,7 +96,7 @@ def _is_silent(found: Diagnosis) -> bool:
     torque = found.disturbance
     above |= torque is not None and tosses(torque, found.after.recordings)
     open_ = found.verdict is Verdict.UNDECIDED and (above or not found.after.seen)
-    return not found.findings and (open_ or found.verdict is Verdict.UNEXPLAINED)
+    return not (found.findings or found.is_of_no_motor) and (open_ or found.verdict is Verdict.UNEXPLAINED)
 
 
 def _has_smaller_gap(one: Selection, other: Selection) -> bool:

@@ -77,6 +77,8 @@ def test_beside_a_torque_that_no_gear_makes_it_is_told_what_comes_nearest(
     disturbance = None if torque is None else Disturbance(torque * largest, 0.01, 1.0, 0.1)
     found = replace(variants[Verdict.UNDECIDED], findings=(), after=held, gap_after=1.0, noise_floor=1.0)
     assert module._is_silent(replace(found, disturbance=disturbance)) is silent
+    walled = replace(found, model=replace(found.model, on_bound={"kv": True}), disturbance=disturbance)
+    assert not module._is_silent(walled)  # no motor moves like this
     named = variants[Verdict.UNDECIDED]
     assert not module._is_silent(replace(named, after=held, disturbance=disturbance))
 

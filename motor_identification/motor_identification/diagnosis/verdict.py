@@ -45,7 +45,8 @@ def conclude(
     """Conclude a diagnosis; `search` is that of the first fit, `elapsed` [s] since the diagnosis began.
 
     undetermined: effects one of which may be missing, though the recordings determine nothing of it. sensor_may_lag:
-    whether what makes the motion late may be of a sensor that nobody described.
+    whether what makes the motion late may be of a sensor that nobody described. Findings
+    with which kv ends at a limit of the search are told without a size, beside the model without them.
     """
     last = selection.model
     undetermined = undetermined or list_unjudged_effects(selection)
@@ -83,7 +84,15 @@ def conclude(
         undetermined=undetermined,
         gain_scatter=last.errors.gain,
     )
-    return replace(found, verdict=Verdict.UNDECIDED) if found.is_of_no_motor else found
+    if not found.is_of_no_motor:
+        return found
+    if selection.steps:
+        nothing = replace(selection, steps=(), model=base, outside=None)
+        may_be = sort_by_table(
+            {*undetermined, *(name for one in findings for name in (one.effect, *one.ambiguous_with))}
+        )
+        return conclude(base, nothing, recordings, validation, search, elapsed, may_be)
+    return replace(found, verdict=Verdict.UNDECIDED)
 
 
 def list_unjudged_effects(selection: Selection) -> tuple[str, ...]:

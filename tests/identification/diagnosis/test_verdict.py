@@ -1,7 +1,7 @@
 """How a diagnosis ends, and missed edges as a finding."""
 
 from dataclasses import replace
-from typing import cast
+from typing import Any, cast
 
 import pytest
 from diagnosed import fitted, with_effect
@@ -10,7 +10,9 @@ from stub_selections import selection_of, step_of
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis import verdict as verdicts
+from motor_identification.diagnosis.candidate_fit import validate_model
 from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.evidence.command_evidence import Falling
 from motor_identification.diagnosis.result import Finding, Nearest, Verdict
 from motor_identification.diagnosis.selection.selection import Selection, begin_selection
@@ -25,8 +27,10 @@ from motor_identification.diagnosis.verdict import (
 )
 from motor_identification.discrepancy.structure import LEAST_SHARE, Structure
 from motor_identification.estimation.request import SearchReport
+from motor_identification.estimation.whitened_fit import WhitenedFit
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.sensor.pulses.missed_edges import MissedShare
+from motor_identification.uncertainty.result import Fit
 from motor_identification.uncertainty.summary import summarise_fit
 from motor_model.effects import EFFECT_BY_NAME
 
@@ -305,6 +309,27 @@ def test_what_a_model_lacks_that_is_no_motor_is_undecided(monkeypatch: pytest.Mo
         monkeypatch.setattr(verdicts, "find_undetectable", lambda model: ())
         found = conclude(selection.model, selection, bags, (), cast(SearchReport, None), lambda: 0.0)
         assert (found.verdict, found.is_of_no_motor) == (verdict, hit)
+
+
+@pytest.mark.parametrize("walled", [(), ("coulomb_friction",), ("", "coulomb_friction")])
+def test_what_no_motor_moves_like_has_no_size(walled: tuple[str, ...], monkeypatch: pytest.MonkeyPatch) -> None:
+    """A friction of 6.2 V "may be missing" in a position loop whose kv was at the limit, with it or without, too."""
+    estimate, hold_out = fitted(ks=0.4)
+    base, bags = begin_selection(estimate, hold_out, 1).model, estimate.problem.recordings
+    model = validate_model(hold_out, with_effect(estimate, "coulomb_friction", {"ks": 0.4}))
+    step = replace(step_of(CandidateTest("coulomb_friction", base, model)), rivals=("load_bias",))
+    summarise = verdicts.summarise_fit
+
+    def summarised(fit: WhitenedFit, *how: Any) -> Fit:
+        told, effects = summarise(fit, *how), fit.problem.unknowns.effects
+        return replace(told, on_bound={**told.on_bound, "kv": (effects[0] if effects else "") in walled})
+
+    monkeypatch.setattr(verdicts, "summarise_fit", summarised)
+    found = conclude(base, selection_of(model, step), bags, (), cast(SearchReport, None), lambda: 0.0, ("dead_zone",))
+    assert found.verdict is Verdict.UNDECIDED and found.is_of_no_motor is ("" in walled)
+    assert [one.effect for one in found.findings] == ([] if walled else ["coulomb_friction"])
+    assert found.undetermined == (("coulomb_friction", "load_bias", "dead_zone") if walled else ("dead_zone",))
+    assert found.gap_after == pytest.approx((base if walled else model).held.gap)
 
 
 @pytest.mark.parametrize("beside", [True, False])
