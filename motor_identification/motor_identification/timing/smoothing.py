@@ -90,11 +90,12 @@ def _choose_by_timing(
 ) -> tuple["Likelihood", SpeedFilter, bool] | None:
     """Choose the filter that speeds passed by the first timing with which they passed one, and whether it is sure.
 
-    Others than the first are tried where values tell of a mean. Measured: 2,500 speeds of a tachogenerator, a mean of
-    three rows' own instants, were less likely by 23 behind that mean with those of rows' means, and by theirs likelier
-    by 2,319.
+    Measured: 2,500 speeds of a tachogenerator, a mean of three rows' own instants, were less likely by 23 behind that
+    mean with those of rows' means, and by theirs likelier by 2,319. Of 5,700 behind an RC filter of 0.93 of a row the
+    share was 0.25 by rows' means, likelier by 6,900 than none, where an inductance is by 9,000; by instants it was
+    0.34, by 10,100.
     """
-    for one in each if means else each[:1]:
+    for one in each:
         best, sure = _choose_filter(one, means, are_open)
         if best is not None and (sure or _is_worth_it(each, one, best)):
             return one, best, sure
