@@ -64,7 +64,9 @@ def import_source(source: Source, said: Said) -> Imported:
     motors: list[Motor] = []
     findings: list[str] = []
     for label, table in separate_motors(given, said).items():
-        found, about = _read_motors(table, source.with_said(said))
+        own = source.with_said(said)
+        by_name = bool(label and own.split and table.text(own.split, 0).strip() == label)  # there is nothing to split
+        found, about = _read_motors(table, replace(own, split=None) if by_name else own)
         motors += [replace(motor, label="_".join(filter(None, (label, motor.label)))) for motor in found]
         findings += about
     motors, still = _without_still(motors)
