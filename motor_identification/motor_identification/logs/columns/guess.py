@@ -51,11 +51,19 @@ def guess_forms(table: Table, said: Said) -> Guess:
             f"Left out, as no column drives them: {', '.join(roles.left_out)} (otherwise: --motor NAME:DRIVE,MOTION)."
         )
     notes.findings.extend(roles.findings)
+    _check_drive(table, roles, said)
     rows = _rows(table, roles, said, notes)
     forms = [make_form(table, pair, roles, said, rows, notes) for pair in roles.pairs]
     if notes.questions:
         raise RecordingError(f"{table.path}: {_ask_once(notes.questions)}.")
     return Guess(tuple(forms), tuple(dict.fromkeys(notes.findings)))
+
+
+def _check_drive(table: Table, roles: Roles, said: Said) -> None:
+    """Refuse the only motor's drive that is 0 in every row, before its supply and the motion's unit are asked for."""
+    drive = roles.pairs[0].voltage
+    if len(roles.pairs) == 1 and not said.max_voltage and len(table) and not np.any(table.numbers(drive)):
+        raise RecordingError(f"{table.path}: {drive} is 0 in every row: check --voltage, or give --max-voltage.")
 
 
 def _rows(table: Table, roles: Roles, said: Said, notes: Notes) -> Rows:

@@ -170,3 +170,13 @@ def test_a_motion_that_answers_at_once_tells_the_unit_of_its_times(
     assert guess.forms[0].time_unit == unit
     told = "no motor answers as soon; otherwise: --time-unit)" in "".join(guess.findings)
     assert told is (rows == 0 and unit != "us")
+
+
+@pytest.mark.parametrize(("drives", "asked"), [((0, 0), "is 0 in every row: check --voltage"), ((0, 1), "say the")])
+def test_a_drive_that_is_0_is_refused_before_anything_is_asked(
+    drives: tuple[int, int], asked: str, tmp_path: Path
+) -> None:
+    rows = [f"{0.02 * k:.2f},{drives[k // 60]},{0.1 * (k % 7):.1f}" for k in range(120)]
+    (tmp_path / "log.csv").write_text("\n".join(["t [s],Control,speed", *rows]))
+    with pytest.raises(RecordingError, match=asked):
+        guess_forms(read_table(tmp_path / "log.csv"), Said())
