@@ -14,6 +14,7 @@ from motor_identification.logs.rows.drive.constant_voltage import CONSTANT
 from motor_identification.logs.rows.row_times import ROW_TIMES
 from motor_model.errors import RecordingError
 
+ERRORS = words_of("error errors err erro erros fehler erreur errore regelabweichung")  # of a loop: no motion
 SHOWN = 12  # names in a question
 GREEK = words_of("alpha beta gamma delta epsilon zeta eta theta lambda phi psi omega tau sigma")
 _NUMBERS = re.compile(r"\d+")
@@ -119,9 +120,14 @@ def miss_drive(table: Table) -> RecordingError:
         )
     headings = [read_heading(name) for name in table.names if name not in (ROW_TIMES, CONSTANT)]
     able = [one.name for one in headings if one.quantity in (None, Quantity.OTHER) or drives(one)]
-    offered = _list_names(able or table.names)
+    if not able:
+        names = ", ".join(f"{one.name} is a {one.quantity.value}" for one in headings[:SHOWN] if one.quantity)
+        return RecordingError(
+            f"{table.path}: no column is the voltage or duty ({names}): log what drives the motor beside them, or say "
+            "--constant-voltage V for a log of one step."
+        )
     return RecordingError(
-        f"{table.path}: no column is the voltage or duty: say which one of {offered} is (--voltage "
+        f"{table.path}: no column is the voltage or duty: say which one of {_list_names(able)} is (--voltage "
         "COL), or --constant-voltage V for a log of one step."
     )
 
@@ -133,7 +139,7 @@ def lack_motion(table: Table, time: str | None) -> RecordingError:
     known = {Quantity.TIME, Quantity.DUTY, Quantity.SUPPLY, Quantity.CURRENT, Quantity.REFERENCE}
     if [one.quantity for one in headings if one.quantity in (Quantity.VOLTAGE, Quantity.DUTY)] == [Quantity.VOLTAGE]:
         known.add(Quantity.VOLTAGE)  # of several drives, one in volts may be a tachogenerator's
-    if open_ones := [one.name for one in headings if one.quantity not in known]:
+    if open_ones := [one.name for one in headings if one.quantity not in known and not ERRORS & set(one.words)]:
         return ask_column(table, "motion", "--speed, --position or --count", open_ones)
     names = [f"{one.name} is a {one.quantity.value}" for one in headings if one.quantity]
     taken = [f"{time} the time"] if time and time != ROW_TIMES else []
