@@ -104,7 +104,7 @@ def test_only_columns_that_may_drive_are_offered_and_the_motion_is_asked_for_at_
 
     assert "say which one of x is (--voltage COL)" in str(miss_drive(log("time [ms]", "speed [rpm]", "x")))
     none = str(miss_drive(log("time_ms", "speed_rpm")))
-    assert "(time_ms is a time, speed_rpm is a speed): log what drives the motor beside them" in none
+    assert "voltage or duty: time_ms is a time, speed_rpm is a speed. Log what drives the motor beside them" in none
     assert "which one" not in none and "--constant-voltage V" in none
     assert "one of angle_x, w." in str(lack_motion(log("t", "u", "angle_x", "erro pan", "speed error", "w"), "t"))
     assert "no column is the motion" in str(lack_motion(log("t", "u", "erro pan"), "t"))

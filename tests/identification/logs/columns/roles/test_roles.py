@@ -94,7 +94,7 @@ def test_the_numbers_of_the_rows_drive_nothing(first: float) -> None:
         ({"t": "t", "w1": "y", "w2": "n", "pwm": "u"}, "w1, w2. For a motor of each: --motor 1:pwm,w1 --motor 2:"),
         ({"t": "t", "Enc1": "y", "Enc2": "n", "pwm": "u"}, "the motion? Say --speed or --position and one of Enc1,"),
         ({"t": "t", "x": "y", "z": "y", "u": "u"}, "one of x, z. For a motor of each: --motor 1:u,x --motor 2:u,z"),
-        ({"t": "t", "speed": "y"}, "is the voltage or duty: say which one of t, speed is (--voltage COL), or --c"),
+        ({"t": "t", "speed": "y"}, "is the voltage or duty: t is a time, speed is a speed. Log what drives the"),
         ({"t": "t", "u": "u", "b": "0"}, "log.csv: b is 0 in every row: the motor never moves in it."),
         ({"t": "t", "a": "u", "b": "0"}, "b is 0 in every row: the motor never moves in it, or a is its motion and"),
         ({"a": "y", "b": "y", "c": "t"}, "which column is the voltage or duty? Say --voltage and one of a, b."),
