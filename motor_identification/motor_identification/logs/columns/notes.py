@@ -123,8 +123,8 @@ def miss_drive(table: Table) -> RecordingError:
     if not able:
         names = ", ".join(f"{one.name} is a {one.quantity.value}" for one in headings[:SHOWN] if one.quantity)
         return RecordingError(
-            f"{table.path}: no column is the voltage or duty: {names}. Log what drives the motor beside them, say which "
-            "column does (--voltage COL), or --constant-voltage V for a log of one step."
+            f"{table.path}: no column is the voltage or duty: {names}. Log what drives the motor beside them, say "
+            "which column does (--voltage COL), or --constant-voltage V for a log of one step."
         )
     return RecordingError(
         f"{table.path}: no column is the voltage or duty: say which one of {_list_names(able)} is (--voltage "
