@@ -45,8 +45,8 @@ def conclude(
     """Conclude a diagnosis; `search` is that of the first fit, `elapsed` [s] since the diagnosis began.
 
     undetermined: effects one of which may be missing, though the recordings determine nothing of it. sensor_may_lag:
-    whether what makes the motion late may be of a sensor that nobody described. Findings
-    with which kv ends at a limit of the search are told without a size, beside the model without them.
+    whether what makes the motion late may be of a sensor that nobody described. Findings with which kv ends at a limit
+    of the search are told without a size, beside the model without them.
     """
     last = selection.model
     undetermined = undetermined or list_unjudged_effects(selection)
