@@ -33,7 +33,7 @@ def read_edge_periods(table: Table, said: Said) -> tuple[Table, Said]:
         return table, said
     headings = [read_heading(name) for name in table.names]
     able = [one for one in headings if is_edge_period(one) and column in (None, one.name)]
-    moves = any(one.quantity in MOVES for one in headings)
+    moves = any(one.quantity in MOVES or one.quantity is None and _varies(table, one) for one in headings)
     if len(able) != 1 or (moves and column is None):
         return table, said
     (heading,) = able
@@ -41,7 +41,7 @@ def read_edge_periods(table: Table, said: Said) -> tuple[Table, Said]:
         period = table.numbers(heading.name)
     except RecordingError:  # told by whoever reads it
         return table, said
-    if not np.any(period) or _are_steps(table, headings, period * _seconds(heading), said):
+    if not np.ptp(period) > 0.0 or _are_steps(table, headings, period * _seconds(heading), said):
         return table, said
     speed = np.divide(1.0, period * _seconds(heading), out=np.zeros(len(period)), where=period != 0.0)
     speed, signs = (speed, "") if np.any(period < 0.0) else _give_signs(table, headings, speed)
@@ -60,6 +60,14 @@ def is_edge_period(heading: Heading) -> bool:
     words = set(heading.words)
     timed = heading.unit in TIME_UNITS
     return bool(timed and words & PERIODS and words <= PERIODS | OF_EDGES and not words & OF_ROWS)
+
+
+def _varies(table: Table, heading: Heading) -> bool:
+    """Whether a column, of whatever name, has numbers that differ: it may be the motion."""
+    try:
+        return bool(np.ptp(table.numbers(heading.name)) > 0.0)
+    except RecordingError:
+        return False
 
 
 def _seconds(heading: Heading) -> float:

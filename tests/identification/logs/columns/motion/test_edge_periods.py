@@ -67,6 +67,12 @@ def test_a_direction_beside_it_gives_the_sign_that_goes_with_the_drive(
     assert "with the sign of dir" in notes[-1]
 
 
+@pytest.mark.parametrize("beside", [{"temp_C": TIME}, {"y": 0.0 * TIME}])
+def test_what_is_no_motion_beside_it_does_not_hide_it(beside: dict[str, np.ndarray[Any, Any]]) -> None:
+    assert read(t=TIME, u=DRIVE, period_us=PERIOD, **beside)[0] is not None
+    assert read(t=TIME, u=DRIVE, period_us=0.0 * TIME + 50.0, **beside)[0] is None  # that of a PWM
+
+
 def test_signs_of_its_own_are_kept() -> None:
     speed, _, notes = read(t=TIME, u=DRIVE, period_us=-np.sign(DRIVE) * PERIOD, dir=WAY.astype(int).astype(str))
     assert speed is not None and "with the sign" not in notes[-1]
@@ -77,6 +83,7 @@ def test_signs_of_its_own_are_kept() -> None:
     ("cells", "said"),
     [
         ({"rpm": SPEED}, Said()),  # beside a motion that was logged as one
+        ({"y": SPEED}, Said()),  # or may be one
         ({}, Said(motion="u")),
         ({"edge_period_us": 2.0 * PERIOD}, Said()),  # of two motors
         ({}, Said(kind=Kind.POSITION, motion="period_us")),
