@@ -200,9 +200,17 @@ def test_a_torque_that_leaves_less_than_it_should_is_taken_where_the_beginning_l
     assert module.select_beside_torque(start, plain, SILENT) is ended[chosen]
 
 
-@pytest.mark.parametrize(("comes", "chosen"), [("dead_zone", 0), ("coulomb_friction", 1)])
-def test_a_beginning_that_comes_to_what_was_found_is_not_gone_on_from_again(
-    monkeypatch: pytest.MonkeyPatch, comes: str, chosen: int
+@pytest.mark.parametrize(
+    ("comes", "before", "now", "chosen"),
+    [
+        ("dead_zone", True, True, 0),
+        ("coulomb_friction", True, True, 1),
+        ("dead_zone", False, True, 1),  # by another torque, beside which nothing is left that can be predicted
+        ("dead_zone", False, False, None),
+    ],
+)
+def test_a_beginning_that_comes_to_what_was_found_is_gone_on_from_again_where_that_left_structure_alone(
+    monkeypatch: pytest.MonkeyPatch, comes: str, before: bool, now: bool, chosen: int | None
 ) -> None:
     """Two thirds of the time that a slow sine of a real motor took, for the same friction."""
     found = stub_test("dead_zone", stub_model(9.0), 5.0, 100.0)
@@ -218,14 +226,16 @@ def test_a_beginning_that_comes_to_what_was_found_is_not_gone_on_from_again(
         sought.append(known)
         return begun if known else selection
 
-    monkeypatch.setattr(Model, "complete", True)
+    complete = {id(ended[0].model): before, id(begun.model): now, id(ended[1].model): now}
+    monkeypatch.setattr(Model, "complete", property(lambda model: complete.get(id(model), True)))
     monkeypatch.setattr(StubModel, "noise_floor", 2.5 / thresholds.RANDOM_GAP[0])
     monkeypatch.setattr(module, "begin_beside_torque", lambda model, *rest: plain if model is plain.model else start)
     monkeypatch.setattr(module, "select_forward", select)
     monkeypatch.setattr(module, "_select_both_ways", lambda selection, _: ended[selection is begun])
     monkeypatch.setattr(module, "_choose_more", lambda selection, *_: selection)
     monkeypatch.setattr(Model, "fills_floor", property(lambda model: model is ended[1].model))
-    assert module.select_beside_torque(start, plain, SILENT) is ended[chosen]
+    wanted = None if chosen is None else ended[chosen]
+    assert module.select_beside_torque(start, plain, SILENT) is wanted
     assert sought == [frozenset(), frozenset(plain.model.effects)]
 
 
