@@ -18,7 +18,7 @@ STEADY = 0.15  # by which the rate of the third quarter may be off that of the l
 _SINCE_1970 = (1e9, 2.2e9)  # [s] 2001 to 2039
 SLOWEST_STEADY = 5e3  # [ms] between the rows of a static curve
 _DAYS = ((2e4, 7e4), (7e5, 8e5))  # of a date, as spreadsheets and MATLAB count them
-_ROUND = 100.0  # times that are all such multiples apart are no microseconds: nobody's loop is that even
+_ROUND = 100.0  # times that are all multiples of it are no microseconds: nobody's loop is that even
 # Microseconds of one tick of a small board's timer, by which its clock goes on; rows of a loop are many of them apart,
 # by steps of many kinds, and so many of them are by no chance.
 TICK, TICKS_APART, KINDS, FEWEST_STAMPS = 4.0, 8.0, 5, 50
@@ -57,7 +57,7 @@ def guess_time_unit(values: Floats) -> tuple[str, str]:
     period = row_period(values)
     if period * TIME_UNITS["us"] * 1e-9 < SLOWEST and _are_ticks(values):
         return "us", f"all are multiples of {TICK:g}, as where a small board's timer ticks every {TICK:g} us"
-    rounded = not np.any(np.diff(values) % _ROUND) and period > 0.0
+    rounded = not np.any(values % _ROUND) and bool(np.any(values))
     for unit, size in TIME_UNITS.items():
         if period * size * 1e-9 < SLOWEST or (unit == "ms" and rounded and period < SLOWEST_STEADY):
             return unit, f"rows are then {period * size * 1e-6:.4g} ms apart"

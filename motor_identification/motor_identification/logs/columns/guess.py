@@ -143,7 +143,10 @@ def _find_longer_unit(table: Table, roles: Roles, said: Said, unit: str) -> str:
     if not can_be_longer(values) or not 0.0 < period * TIME_UNITS[units[place]] < SLOWEST_STEADY * 1e-3:
         return ""
     for pair in roles.pairs:
-        is_speed = said.kind is Kind.SPEED or read_heading(pair.motion).quantity is Quantity.SPEED
+        quantity = read_heading(pair.motion).quantity  # counts may be those of each row
+        is_speed = said.kind is Kind.SPEED or quantity is Quantity.SPEED
+        if not is_speed and (said.kind or quantity) not in (Kind.POSITION, Quantity.POSITION):
+            continue
         drive, motion = table.numbers(pair.voltage), table.numbers(pair.motion)
         if answers_too_soon(drive, motion, is_speed, period * TIME_UNITS[unit]):
             return units[place]

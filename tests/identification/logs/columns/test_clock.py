@@ -15,8 +15,7 @@ from motor_identification.logs.columns.clock import are_days, can_be_longer, fin
         (0.0, 1.0, "ms"),  # 1 kHz, and no log of a row a second
         (8859.0, 11.0, "ms"),
         (17800.0, 1100.0, "ms"),  # a static curve: multiples of 100 are no microseconds
-        (17803.0, 1100.0, "ms"),  # whenever it began
-        (22754.0, 500.0, "ms"),
+        (12345678.0, 1000.0, "us"),  # however even, from anywhere on: a motor's answer tells, if one is as quick
         (17801.0, 5003.0, "us"),
         (17801.0, 5000.0, "us"),
         (17801.0, 503.0, "us"),  # unless the motion tells

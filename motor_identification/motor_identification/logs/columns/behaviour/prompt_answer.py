@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 
 SOONEST = 2e-3  # [s] in which no motor gets to its speed
+AT_ONCE = 1.0  # rows: a motor that takes more may be as quick as that
 HELD = 20  # rows of a level by which an answer is told
 BEFORE = 3  # rows before it, at least
 CLEAR = 5.0  # times the noise: an answer
@@ -24,7 +25,7 @@ def answers_too_soon(drive: Floats, motion: Floats, is_speed: bool, period: floa
     """
     with np.errstate(over="ignore", invalid="ignore"):  # a damaged cell may be any number
         rows = count_rows_to_answer(drive, motion if is_speed else np.diff(motion, prepend=motion[:1]))
-    return rows is not None and max(rows, 1.0) * period < SOONEST
+    return rows is not None and rows <= AT_ONCE and period < SOONEST
 
 
 def count_rows_to_answer(drive: Floats, speed: Floats) -> float | None:

@@ -89,7 +89,8 @@ def _are_steps(table: Table, headings: list[Heading], period: Floats, said: Said
         return False
     unit = clocks[0].unit if clocks[0].unit in TIME_UNITS else guess_time_unit(time)[0]
     steps = np.diff(time) * TIME_UNITS[unit] * 1e-9
-    return bool(np.mean(np.abs(period[1:] - steps) <= AS_ROWS * steps) > MOSTLY)
+    rows = (period[1:], period[:-1])  # of the row before, or of its own
+    return any(float(np.mean(np.abs(one - steps) <= AS_ROWS * steps)) > MOSTLY for one in rows)
 
 
 def _give_signs(table: Table, headings: list[Heading], speed: Floats) -> tuple[Floats, str]:

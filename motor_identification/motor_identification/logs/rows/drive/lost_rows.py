@@ -9,6 +9,7 @@ from motor_identification.logs.signals import Floats, Signals
 
 GAP = 1.5  # times the usual length of a row: a longer one has a lost one in it, or was late
 LONGEST = 4.5  # times the same: across longer ones the rows on either side tell little
+MADE_UP = 0.75  # times the same: with a shorter one behind it only a stamp was late
 FEWEST = 3  # rows behind such ones that tell
 COUNTS = 4.0  # of a row beside such a one: fewer tell one row's from those of two by chance
 LOST = (
@@ -43,7 +44,7 @@ def _compare(signals: Signals, run: slice, period: float) -> Floats:
     """
     rows = np.diff(signals.time[run]) / period
     counts = np.abs(np.diff(signals.motion[run]))
-    behind = np.flatnonzero((rows[1:-1] > GAP) & (rows[1:-1] < LONGEST)) + 1
+    behind = np.flatnonzero((rows[1:-1] > GAP) & (rows[1:-1] < LONGEST) & (rows[2:] > MADE_UP)) + 1
     beside = 0.5 * (counts[behind - 1] + counts[behind + 1])
     alike = np.minimum(counts[behind - 1], counts[behind + 1]) >= np.maximum(COUNTS, 0.5 * beside)
     behind, beside = behind[alike], beside[alike]

@@ -106,5 +106,7 @@ def test_times_from_row_to_row_are_no_motion(share: float, is_speed: bool) -> No
     time = np.concatenate([[0.0], np.cumsum(steps[1:])])
     period = np.where(np.arange(200) < share * 200, 1e6 * steps, PERIOD)
     assert (read(t_s=time, u=DRIVE, period_us=period)[0] is not None) is is_speed
+    before = np.append(period[1:], 1e4)  # each of the row to come
+    assert (read(t_s=time, u=DRIVE, period_us=before)[0] is not None) is is_speed
     assert read(u=DRIVE, period_us=PERIOD)[0] is None  # nothing else says when the rows were
     assert read(Said(sample_period=0.01), u=DRIVE, period_us=PERIOD)[0] is not None

@@ -73,3 +73,10 @@ def test_an_import_reads_them_as_speeds_and_says_so(tmp_path: Path) -> None:
         log = read_log(tmp_path / "log.csv", FORM)
         assert any("what these counted is lost" in line for line in log.findings) is lost
         assert log.info.measurement is (Measurement.SPEED if lost else Measurement.COUNTS)
+
+
+def test_a_late_stamp_that_the_next_row_makes_up_for_is_no_lost_row() -> None:
+    time, count = counted(lost=True, gaps=0)
+    late = np.arange(10, 390, 12)
+    time[late] += 0.6 * PERIOD
+    assert read_speeds_where_rows_are_lost(as_signals(time, count), FORM)[2] == []
