@@ -172,6 +172,15 @@ def test_a_motion_that_answers_at_once_tells_the_unit_of_its_times(
     assert told is (rows == 0 and unit != "us")
 
 
+@pytest.mark.parametrize(("name", "unit"), [("dcount", "us"), ("speed [rpm]", "ms")])
+def test_counts_of_each_row_do_not_tell_it(name: str, unit: str, tmp_path: Path) -> None:
+    """Their differences answer at once, as a torque does."""
+    lines = [f"{22754 + 503 * k + k % 3},{0 if k < 40 else 75},{0 if k < 40 else 40 + k % 2}" for k in range(120)]
+    (tmp_path / "log.csv").write_text("\n".join([f"Time,pwm,{name}", *lines]))
+    said = Said(supply_voltage=12.0, full_duty=100.0, edges_per_revolution=2000)
+    assert guess_forms(read_table(tmp_path / "log.csv"), said).forms[0].time_unit == unit
+
+
 @pytest.mark.parametrize(("drives", "asked"), [((0, 0), "is 0 in every row: check --voltage"), ((0, 1), "say the")])
 def test_a_drive_that_is_0_is_refused_before_anything_is_asked(
     drives: tuple[int, int], asked: str, tmp_path: Path
