@@ -72,21 +72,6 @@ class User:
                 (on_again or self.switch_on)()
         return next(sample for sample in self.samples[begin:] if condition(sample))
 
-    def until_driven(self, said: Callable[[], bool]) -> None:
-        """Wait until the plant says what it says while it is driven; as `until_on`, switch it on again after a stop."""
-        looked = len(self.samples)
-
-        def enough() -> bool:
-            return said() or len(self.samples) > looked + 300
-
-        while not said():
-            self.bench.wait(enough, "what a plant says that is driven")
-            looked = len(self.samples)
-            if not said() and self.samples[-1].voltage == 0.0:
-                self.stops += 1
-                count_stop(self.stops, f"a driven plant ({'; '.join(self._said.values())})")
-                self.switch_on()
-
     def switch_on(self) -> None:
         """Call motor/enable, until it succeeds: a board that was held up sends no telemetry for a moment."""
         on = SetBool.Request(data=True)

@@ -55,7 +55,7 @@ def test_reaches_the_speed_of_its_model_and_stamps_every_edge(bench: Bench, star
     def say() -> list[tuple[bytes, str]]:
         return [(one.level, one.message) for array in status for one in array.status if one.hardware_id == "wheel"]
 
-    user.until_driven(lambda: say()[-1:] == [(b"\x00", "driven")])
+    user.until_on(lambda _: say()[-1:] == [(b"\x00", "driven")], "the plant that is driven")
     assert not any("More than one node" in message for _, message in say())
     end(process)
     assert process.returncode == 0

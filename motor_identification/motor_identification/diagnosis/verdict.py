@@ -84,15 +84,12 @@ def conclude(
         undetermined=undetermined,
         gain_scatter=last.errors.gain,
     )
-    if not found.is_of_no_motor:
-        return found
-    if selection.steps:
+    if found.is_of_no_motor and selection.steps:
         nothing = replace(selection, steps=(), model=base, outside=None)
-        may_be = sort_by_table(
-            {*undetermined, *(name for one in findings for name in (one.effect, *one.ambiguous_with))}
-        )
+        named = {name for one in findings for name in (one.effect, *one.ambiguous_with)}
+        may_be = sort_by_table({*undetermined, *named})
         return conclude(base, nothing, recordings, validation, search, elapsed, may_be)
-    return replace(found, verdict=Verdict.UNDECIDED)
+    return replace(found, verdict=Verdict.UNDECIDED) if found.is_of_no_motor else found
 
 
 def list_unjudged_effects(selection: Selection) -> tuple[str, ...]:

@@ -72,8 +72,8 @@ def _mark_measured(recording: Recording) -> Bools:
     time, speed, period, row = recording.time, recording.speed, recording.edge_period, recording.sample_period
     again = np.diff(speed, prepend=np.nan) == 0.0
     turning = period > 0.0
-    new = turning & (~again | (period < row) & _repeat_by_chance(again[turning], period[turning] / row))
-    new &= ~(again & _mark_repeats_of_stops(time / row, speed, period / row, again))
+    by_chance = (period < row) & ~_mark_repeats_of_stops(time / row, speed, period / row, again)
+    new = turning & (~again | by_chance & _repeat_by_chance(again[turning], period[turning] / row))
     at = np.flatnonzero(new & ~mark_decays(time, period, row))
     # An edge is a slot's time after the one before: where a value comes sooner, that was the time since one.
     sooner = np.diff(time[at]) < period[at[1:]] - OLDER * row
