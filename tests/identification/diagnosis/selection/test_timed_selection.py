@@ -185,6 +185,108 @@ def test_counts_that_answer_voltages_before_their_rows_need_no_effect_for_it(
     assert selected.finished is (time or not told or not complete)
 
 
+@pytest.mark.parametrize(
+    ("named", "nearest_gap", "taken"),
+    [((), 0.49, True), ((), 0.51, False), (("coulomb_friction",), 0.49, False)],
+)
+def test_the_nearest_model_is_asked_too_where_it_halves_what_is_said_to_be_a_torque(
+    monkeypatch: pytest.MonkeyPatch, named: tuple[str, ...], nearest_gap: float, taken: bool
+) -> None:
+    """A friction and a drag in speeds over times between edges: all that was left was said to be random."""
+    nearest = SimpleNamespace(steps=(1,), model=SimpleNamespace(held=SimpleNamespace(gap=nearest_gap)))
+
+    def select(*_: Any) -> Any:
+        model = SimpleNamespace(held=SimpleNamespace(gap=1.0), above_floor=True, complete=True)
+        return SimpleNamespace(selection=SimpleNamespace(model=model), effects=named, finished=True)
+
+    look: Callable[..., Any] = lambda first, one, **_: OTHERS[0] if one is nearest else None  # noqa: E731
+    again = SimpleNamespace(selection=None, timing=OTHERS[0])
+    first = SimpleNamespace(selection=None, timing=None)
+    begin: Callable[..., Any] = lambda one, timing, *_: again if timing else first  # noqa: E731
+    monkeypatch.setattr(timed_selection, "find_timing_beside", look)
+    monkeypatch.setattr(timed_selection, "select_in_time", select)
+    monkeypatch.setattr(timed_selection, "begin_as_timed", begin)
+    limit = SimpleNamespace(begin_with=lambda _: None, begin_again=lambda: True, best=nearest)
+    reporter = SimpleNamespace(stopped=lambda: False, beyond=lambda _: None)
+    start, _ = select_as_timed(first, Request(), reporter, limit)  # type: ignore[arg-type]
+    assert start.timing == (OTHERS[0] if taken else None)
+
+
+@pytest.mark.parametrize(
+    ("above", "complete", "gap", "taken"),
+    [(True, False, 1.09, True), (True, False, 1.11, False), (True, True, 1.0, False), (False, False, 1.0, False)],
+)
+def test_what_was_found_is_asked_for_another_timing_where_something_is_left_that_can_be_predicted(
+    monkeypatch: pytest.MonkeyPatch, above: bool, complete: bool, gap: float, taken: bool
+) -> None:
+    """A drag hid that speeds were of times between edges, and left 38 times the floor."""
+    states = iter([(1.0, above, complete), (gap, False, True)])
+    slotted = replace(OTHERS[0], slot=2.1)
+
+    def select(*_: Any) -> Any:
+        left, over, done = next(states)
+        model = SimpleNamespace(held=SimpleNamespace(gap=left), above_floor=over, complete=done)
+        return SimpleNamespace(selection=SimpleNamespace(model=model), effects=("quadratic_drag",), finished=True)
+
+    timings = iter([OTHERS[0], slotted])
+    monkeypatch.setattr(timed_selection, "find_timing_beside", lambda *_, **__: next(timings))
+    monkeypatch.setattr(timed_selection, "select_in_time", select)
+    monkeypatch.setattr(
+        timed_selection, "begin_as_timed", lambda one, timing, *_: SimpleNamespace(selection=None, timing=timing)
+    )
+    limit = SimpleNamespace(begin_with=lambda _: None, begin_again=lambda: True)
+    reporter = SimpleNamespace(stopped=lambda: False, beyond=lambda _: None)
+    start, _ = select_as_timed(SimpleNamespace(selection=None), Request(), reporter, limit)  # type: ignore[arg-type]
+    assert start.timing == (slotted if taken else OTHERS[0])
+
+
+ROW = 0.01  # [s]
+
+
+@pytest.mark.parametrize(
+    ("timing", "delay", "left", "gap", "taken"),
+    [
+        (OTHERS[0], 0.0050, ("coulomb_friction",), 1.09, True),
+        (OTHERS[0], 0.0059, ("coulomb_friction",), 1.09, True),
+        (OTHERS[0], 0.0061, ("coulomb_friction",), 1.0, False),  # a dead time of its own
+        (OTHERS[0], 0.0039, ("coulomb_friction",), 1.0, False),
+        (OTHERS[0], 0.0050, ("coulomb_friction",), 1.11, False),
+        (OTHERS[0], 0.0050, ("coulomb_friction", "transport_delay"), 1.0, False),
+        (replace(OTHERS[0], slot=0.1), 0.0050, ("coulomb_friction",), 1.0, False),
+        (ASSUMED, 0.0050, ("coulomb_friction",), 1.0, False),
+    ],
+)
+def test_values_of_instants_that_are_half_a_row_late_are_means(
+    monkeypatch: pytest.MonkeyPatch, timing: Timing, delay: float, left: tuple[str, ...], gap: float, taken: bool
+) -> None:
+    """Of means over rows of 10 ms a dead time of 4.98 ms was named, beside a friction nobody had known of."""
+    states = iter([(1.0, ("coulomb_friction", "transport_delay")), (gap, left)])
+
+    def select(*_: Any) -> Any:
+        gap_left, effects = next(states)
+        parameters = SimpleNamespace(value={"delay": delay}.__getitem__)
+        model = SimpleNamespace(
+            held=SimpleNamespace(gap=gap_left),
+            above_floor=False,
+            complete=True,
+            estimate=SimpleNamespace(parameters=parameters),
+        )
+        return SimpleNamespace(selection=SimpleNamespace(model=model), effects=effects, finished=True)
+
+    recordings = [SimpleNamespace(info=SimpleNamespace(sample_period=ROW))]
+    monkeypatch.setattr(timed_selection, "find_timing_beside", lambda *_, **__: timing)
+    monkeypatch.setattr(timed_selection, "select_in_time", select)
+    monkeypatch.setattr(
+        timed_selection,
+        "begin_as_timed",
+        lambda one, timing, *_: SimpleNamespace(selection=None, timing=timing, recordings=recordings),
+    )
+    limit = SimpleNamespace(begin_with=lambda _: None, begin_again=lambda: True)
+    reporter = SimpleNamespace(stopped=lambda: False, beyond=lambda _: None)
+    start, _ = select_as_timed(SimpleNamespace(selection=None), Request(), reporter, limit)  # type: ignore[arg-type]
+    assert start.timing == (None if taken else timing)
+
+
 EARLY = OTHERS[2]
 
 
