@@ -12,6 +12,7 @@ from motor_model.sample import Measurement
 from motor_msgs.msg import MotorSpeed, MotorVoltage
 
 COLUMNS = ["--time", "t", "--voltage", "u"]
+SPEED = ["--speed", "y", "--unit", "rad/s"]
 
 
 @pytest.fixture
@@ -46,7 +47,7 @@ def test_a_bag_that_identification_reads(log: Path, tmp_path: Path, capsys: pyte
 
 def test_times_since_1970_are_ros_times(tmp_path: Path) -> None:
     (tmp_path / "log.csv").write_text("t,u,y\n1760000000.5,1,1\n1760000001.5,1,2\n")
-    assert main([str(tmp_path / "log.csv"), "--output", str(tmp_path / "bag"), *COLUMNS, "--speed", "y"]) == 0
+    assert main([str(tmp_path / "log.csv"), "--output", str(tmp_path / "bag"), *COLUMNS, *SPEED]) == 0
     assert {row[2] for row in messages(tmp_path / "bag")} == {1760000000500000000, 1760000001500000000}
 
 
@@ -74,7 +75,7 @@ def test_a_bad_log_is_a_sentence_and_no_bag(
     log: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], change: tuple[str, str], complaint: str | None
 ) -> None:
     log.write_text(log.read_text().replace(*change))
-    status = main([str(log), "--output", str(tmp_path / "bag"), *COLUMNS, "--speed", "y"])
+    status = main([str(log), "--output", str(tmp_path / "bag"), *COLUMNS, *SPEED])
     out, err = capsys.readouterr()
     assert (status, (tmp_path / "bag").exists()) == ((0, True) if complaint is None else (1, False))
     assert complaint is None or (complaint in err and err.count("\n") == 1 and out == "")
@@ -84,14 +85,14 @@ def test_existing_output_is_left_alone_and_no_other_run_written(
     log: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "run_2").mkdir()
-    assert main([str(log), "--output", str(tmp_path / "run"), *COLUMNS, "--speed", "y", "--split", "s"]) == 1
+    assert main([str(log), "--output", str(tmp_path / "run"), *COLUMNS, *SPEED, "--split", "s"]) == 1
     assert "run_2 exists already and is left as it is" in capsys.readouterr().err
     assert [path.name for path in tmp_path.glob("run*")] == ["run_2"]
     assert list((tmp_path / "run_2").iterdir()) == []
 
 
 def test_no_such_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main([str(tmp_path / "none"), "--output", str(tmp_path / "bag"), *COLUMNS, "--speed", "y"]) == 1
+    assert main([str(tmp_path / "none"), "--output", str(tmp_path / "bag"), *COLUMNS, *SPEED]) == 1
     assert "There is no file" in capsys.readouterr().err
 
 

@@ -125,8 +125,6 @@ def _unit(table: Table, heading: Heading, kind: Kind, said: Said, period: float,
     if not guessed.name and stamps is not None:
         tell = tell_speed_unit if kind is Kind.SPEED else tell_position_unit
         guessed = tell(table, heading, stamps) or guessed
-    if not guessed.name and said.motion and said.kind and next(iter(UNITS[kind])) in guessed.candidates:
-        return Unit(next(iter(UNITS[kind])), "assumed; otherwise: --unit")
     return guessed
 
 

@@ -29,7 +29,11 @@ from motor_model.errors import RecordingError
         ("speed", Said(), Kind.SPEED, "rad/s", "--unit"),
         ("pot_V", Said(), Kind.POSITION, "rad", "is a voltage: of a potentiometer, say --unit rad,"),
         ("tacho [V]", Said(unit="rad/s"), Kind.SPEED, "rad/s", ""),
-        ("speed", Said(motion="speed", kind=Kind.SPEED), Kind.SPEED, "rad/s", ""),  # named: the first unit is assumed
+        ("speed", Said(motion="speed", kind=Kind.SPEED), Kind.SPEED, "rad/s", "rad/s, deg/s or rpm"),  # tells no unit
+        ("speed", Said(motion="speed", kind=Kind.SPEED, unit="rad/s"), Kind.SPEED, "rad/s", ""),
+        ("speed [rpm]", Said(motion="speed [rpm]", kind=Kind.SPEED), Kind.SPEED, "rpm", ""),
+        ("angle", Said(motion="angle", kind=Kind.POSITION), Kind.POSITION, "rad", "do not tell: say --unit"),
+        ("angle", Said(motion="angle", kind=Kind.POSITION, unit="rad"), Kind.POSITION, "rad", ""),
     ],
 )
 def test_kind_and_unit_of_the_motion(motion: str, said: Said, kind: Kind, unit: str, asked: str) -> None:
@@ -69,16 +73,17 @@ def test_a_speed_called_by_a_unit_of_angles(said: Said, kind: Kind, unit: str) -
         assert (made.kind, made.unit) == (named, unit if named is kind else "rad")
 
 
-@pytest.mark.parametrize(("least", "unit"), [(1.0, ""), (0.0173, "rad")])
-def test_a_named_position_in_whole_numbers_is_asked_for_as_it_is_no_angle_in_radians(least: float, unit: str) -> None:
+@pytest.mark.parametrize(("least", "units"), [(1.0, "count or deg"), (0.0173, "rad, deg, rev or count")])
+def test_a_named_position_in_whole_numbers_is_asked_for_as_it_is_no_angle_in_radians(least: float, units: str) -> None:
+    """Who names the column says nothing of its unit: of fractions all are asked for, too."""
     time = 0.01 * np.arange(1, 101)
     moved = least * np.floor(300.0 * np.sin(time))
     notes = Notes([], [])
     table = Table(Path("log.csv"), np.arange(100), {"t": time, "u": np.repeat([5.0, -5.0], 50), "Position": moved})
     said = Said(motion="Position", kind=Kind.POSITION)
-    made = make_form(table, Pair("", "u", "Position"), Roles("t", (), None, None), said, ROWS, notes)
-    assert (made.unit == "rad" and notes.questions == []) == bool(unit)
-    assert unit or "in count or deg, which the numbers do not tell: say --unit" in notes.questions[0][1]
+    make_form(table, Pair("", "u", "Position"), Roles("t", (), None, None), said, ROWS, notes)
+    question = notes.questions[0][1]
+    assert question.startswith(f"in {units}, ") and "which the numbers do not tell: say --unit" in question
 
 
 @pytest.mark.parametrize(("edges", "unit"), [(334, "count/s"), (360, ""), (60, ""), (None, "")])
