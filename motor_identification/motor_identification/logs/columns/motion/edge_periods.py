@@ -19,6 +19,7 @@ Floats = NDArray[np.float64]
 
 PERIODS = words_of("period interval between periode periodo période")
 OF_EDGES = words_of("edge edges pulse pulses tick ticks encoder enc hall speed motor wheel capture")
+EDGES = words_of("edge edges pulse pulses encoder enc hall capture")  # of no program's own loop
 OF_ROWS = words_of("sample sampling loop cycle row control pwm")  # whose periods are no motion
 AS_ROWS, MOSTLY = 0.02, 0.8  # relative: periods that are so near to the times from row to row, in most rows, are those
 
@@ -41,7 +42,9 @@ def read_edge_periods(table: Table, said: Said) -> tuple[Table, Said]:
         period = table.numbers(heading.name)
     except RecordingError:  # told by whoever reads it
         return table, said
-    if not np.ptp(period) > 0.0 or _are_steps(table, headings, period * _seconds(heading), said):
+    if not np.ptp(period) > 0.0 or not _has_clock(headings, said):
+        return table, said
+    if not _is_said(heading, said) and _are_steps(table, headings, period * _seconds(heading), said):
         return table, said
     speed = np.divide(1.0, period * _seconds(heading), out=np.zeros(len(period)), where=period != 0.0)
     speed, signs = (speed, "") if np.any(period < 0.0) else _give_signs(table, headings, speed)
@@ -75,19 +78,33 @@ def _seconds(heading: Heading) -> float:
     return TIME_UNITS[heading.unit] * 1e-9
 
 
+def _is_said(heading: Heading, said: Said) -> bool:
+    """Whether the user, or a name, says that times are those between edges: of a row an edge, rows are as long."""
+    return bool(said.motion or said.edges_per_revolution or set(heading.words) & EDGES)
+
+
+def _clocks(headings: list[Heading], said: Said) -> list[Heading]:
+    """Find the columns that may say when the rows were."""
+    if said.time:
+        return [one for one in headings if one.name == said.time]
+    return [one for one in headings if one.quantity is Quantity.TIME and not is_edge_period(one)]
+
+
+def _has_clock(headings: list[Heading], said: Said) -> bool:
+    """Whether something else than the times between edges says when the rows were."""
+    return said.sample_period is not None or len(_clocks(headings, said)) == 1
+
+
 def _are_steps(table: Table, headings: list[Heading], period: Floats, said: Said) -> bool:
-    """Whether periods [s] of shape (K,) are those from row to row, or nothing else says when the rows were."""
+    """Whether periods [s] of shape (K,) are those from row to row."""
     if said.sample_period is not None:
         return False
-    clocks = [one for one in headings if one.quantity is Quantity.TIME and not is_edge_period(one)]
-    clocks = [one for one in headings if one.name == said.time] if said.time else clocks
-    if len(clocks) != 1:
-        return True
+    (clock,) = _clocks(headings, said)
     try:
-        time = table.numbers(clocks[0].name)
+        time = table.numbers(clock.name)
     except RecordingError:  # times of day
         return False
-    unit = clocks[0].unit if clocks[0].unit in TIME_UNITS else guess_time_unit(time)[0]
+    unit = clock.unit if clock.unit in TIME_UNITS else guess_time_unit(time)[0]
     steps = np.diff(time) * TIME_UNITS[unit] * 1e-9
     rows = (period[1:], period[:-1])  # of the row before, or of its own
     return any(float(np.mean(np.abs(one - steps) <= AS_ROWS * steps)) > MOSTLY for one in rows)

@@ -110,3 +110,35 @@ def test_times_from_row_to_row_are_no_motion(share: float, is_speed: bool) -> No
     assert (read(t_s=time, u=DRIVE, period_us=before)[0] is not None) is is_speed
     assert read(u=DRIVE, period_us=PERIOD)[0] is None  # nothing else says when the rows were
     assert read(Said(sample_period=0.01), u=DRIVE, period_us=PERIOD)[0] is not None
+
+
+@pytest.mark.parametrize(
+    ("name", "said", "is_speed"),
+    [
+        ("edge_interval_us", Said(), True),
+        ("pulse_period_us", Said(), True),
+        ("period_us", Said(motion="period_us", kind=Kind.SPEED), True),
+        ("period_us", Said(edges_per_revolution=245), True),
+        ("period_us", Said(), False),  # a program's loop may be as long
+        ("tick_period_us", Said(), False),
+        ("loop_period_us", Said(edges_per_revolution=245), False),
+    ],
+)
+@pytest.mark.parametrize("before", [False, True])
+def test_of_a_row_an_edge_the_times_between_rows_are_those_between_edges(
+    name: str, said: Said, is_speed: bool, before: bool
+) -> None:
+    """Where a name or the user says that they are: 1 / period, and the same number of edges as of even rows."""
+    period = 1e-6 * np.rint(1e6 / SPEED)
+    time = np.cumsum(np.append(0.0, period[1:]))
+    logged = np.append(period[1:], period[-1]) if before else period
+    table, _ = read_edge_periods(columns(t_s=time, u=np.abs(DRIVE), **{name: np.rint(1e6 * logged)}), said)
+    made = f"1 / {name} (count/s)"
+    assert (made in table.names) is is_speed
+    if is_speed:
+        np.testing.assert_allclose(table.numbers(made), 1.0 / logged, rtol=1e-9)
+
+
+def test_without_another_clock_nothing_says_when_the_rows_were_whoever_names_the_times() -> None:
+    said = Said(motion="period_us", kind=Kind.SPEED)
+    assert read(said, u=DRIVE, period_us=PERIOD)[0] is None
