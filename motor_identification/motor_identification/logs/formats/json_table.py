@@ -2,7 +2,9 @@
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -14,9 +16,35 @@ from motor_identification.logs.formats.json_lines import MOST_NAMES, flatten_mem
 from motor_model.errors import RecordingError
 
 Columns: TypeAlias = "dict[str, list[Any]]"
+RUN = "run in the file"  # the column by which the runs of one list are split
+FEWEST_ROWS = 5  # of a run: of fewer, members are a vector's
 DEEPEST = 4  # lists and objects around a table
 MOST_TABLES = 1000  # that are looked at in one document
 _NAMES = ("columns", "names", "header", "headers", "fields", "labels", "keys")  # of the columns, beside rows
+
+
+@dataclass(frozen=True)
+class _Found:
+    """A table, the names and places that lead to it, and what a text beside it calls it."""
+
+    columns: Columns
+    path: tuple[str | int, ...]
+    called: str = ""
+
+    @property
+    def size(self) -> int:
+        """Values."""
+        return sum(map(len, self.columns.values()))
+
+    @property
+    def rows(self) -> int:
+        """Rows of it."""
+        return len(next(iter(self.columns.values())))
+
+    def is_run_beside(self, other: "_Found") -> bool:
+        """Whether both are members of one list, and have the same columns."""
+        where, there = ([None if isinstance(one, int) else one for one in path] for path in (self.path, other.path))
+        return where == there and None in where and set(self.columns) == set(other.columns)
 
 
 def may_be_document(head: bytes) -> bool:
@@ -34,7 +62,7 @@ def is_document(path: Path) -> bool:
 
 
 def read_json_table(path: Path) -> Table:
-    """Read the table with the most values in a document.
+    """Read the table with the most values in a document; of a list of such, all, with the column RUN to split by.
 
     Raises:
         RecordingError: the document is damaged, or there is no table in it.
@@ -44,40 +72,59 @@ def read_json_table(path: Path) -> Table:
         document = json.loads(text)
     except (ValueError, RecursionError) as error:
         raise RecordingError(f"{path} is no complete JSON: export it again.") from error
-    best: Columns = {}
-    for number, columns in enumerate(_tables(document, 0)):
-        if _size(columns) > _size(best):
-            best = columns
-        if number >= MOST_TABLES:
-            break
-    if not best:
+    found = list(islice(_tables(document, ()), MOST_TABLES + 1))
+    if not found:
         raise RecordingError(f"{path} is JSON without a table of samples: export it as CSV.")
-    rows = len(next(iter(best.values())))
-    cells = {name: np.array([_as_cell(value) for value in column], np.str_) for name, column in best.items()}
-    return Table(path, np.arange(1, rows + 1), cells)
+    best = max(found, key=lambda one: one.size)  # the first of them
+    beside = [one for one in found if one.is_run_beside(best)]
+    runs = [one for one in beside if one.rows >= FEWEST_ROWS] or [best]
+    others = sum(set(one.columns) == set(best.columns) for one in found) - max(len(beside), 1)
+    cells = {name: [_as_cell(value) for run in runs for value in run.columns[name]] for name in best.columns}
+    if len(runs) > 1:
+        labels = [f"{run.called or 'run'} {number}" for number, run in enumerate(runs, start=1)]
+        cells[RUN] = [label for label, run in zip(labels, runs, strict=True) for _ in range(run.rows)]
+    rows = sum(run.rows for run in runs)
+    as_texts = {name: np.array(column, np.str_) for name, column in cells.items()}
+    return Table(path, np.arange(1, rows + 1), as_texts, notes=_say_left_out(runs, len(beside), others))
 
 
-def _size(columns: Columns) -> int:
-    return sum(map(len, columns.values()))
+def _say_left_out(runs: Sequence[_Found], beside: int, others: int) -> tuple[str, ...]:
+    """Say how many runs there are, and which tables of the same columns are not read."""
+    said = []
+    if len(runs) > 1:
+        said.append(f"The file has a list of {len(runs)} runs: a bag each (otherwise: --split).")
+    if beside > len(runs):
+        said.append(f"Left out: {beside - len(runs)} of the list, of fewer than {FEWEST_ROWS} rows.")
+    if others > 0:
+        number = "1 more table" if others == 1 else f"{others} more tables"
+        said.append(f"Left out: {number} of the same columns (the largest is read): give each in a file of its own.")
+    return tuple(said)
 
 
-def _tables(value: Any, depth: int) -> Iterator[Columns]:
+def _tables(value: Any, path: tuple[str | int, ...]) -> Iterator[_Found]:
     """The tables in a value of at least two rows and columns."""
     names: list[str] = []
-    inner: list[Any] = []
+    inner: list[tuple[str | int, Any]] = []
     if isinstance(value, dict):
-        yield from _of_columns({name: _in_order(column) for name, column in value.items()})
+        for columns in _of_columns({name: _in_order(column) for name, column in value.items()}):
+            yield _Found(columns, path, _call(value))
         names = next((value[name] for name in _NAMES if _are_texts(value.get(name))), [])
-        inner = list(value.values())
+        inner = list(value.items())
     elif isinstance(value, list):
-        inner = value
+        inner = list(enumerate(value))
         if len(value) >= 2:
-            yield from _of_rows(value, [])
-    for one in inner if depth < DEEPEST and not _is_plain(value) else ():
+            yield from (_Found(columns, path) for columns in _of_rows(value, []))
+    for place, one in inner if len(path) < DEEPEST and not _is_plain(value) else ():
         if names and isinstance(one, list) and len(one) >= 2:
-            yield from _of_rows(one, names)
+            yield from (_Found(columns, (*path, place)) for columns in _of_rows(one, names))
         if isinstance(one, dict | list):
-            yield from _tables(one, depth + 1)
+            yield from _tables(one, (*path, place))
+
+
+def _call(members: dict[str, Any]) -> str:
+    """Name a run by the one text beside its columns: `"type": "step"`."""
+    texts = [one for one in members.values() if isinstance(one, str) and one.strip()]
+    return texts[0].strip()[:40] if len(texts) == 1 else ""
 
 
 def _in_order(column: Any) -> Any:

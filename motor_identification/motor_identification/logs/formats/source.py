@@ -10,7 +10,7 @@ from motor_identification.logs.csv.dialect import check_file
 from motor_identification.logs.csv.reader import read_table, table_of
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.formats.json_lines import are_json_lines, read_json_lines
-from motor_identification.logs.formats.json_table import is_document, may_be_document, read_json_table
+from motor_identification.logs.formats.json_table import RUN, is_document, may_be_document, read_json_table
 from motor_identification.logs.formats.lvm import LETTERS as LABVIEW
 from motor_identification.logs.formats.lvm import read_lvm
 from motor_identification.logs.formats.mat_version_4 import is_version_4
@@ -93,7 +93,8 @@ def _read_json(path: Path) -> Source:
     if is_sysid(path.read_text(encoding="utf-8-sig", errors="replace")):
         table, units_per_revolution = read_sysid(path)
         return Source(table, "SysId JSON", Said(split="test", units_per_revolution=units_per_revolution))
-    return Source(read_json_table(path), "JSON file")
+    table = read_json_table(path)
+    return Source(table, "JSON file", Said(split=RUN if RUN in table.names else None))
 
 
 _OF_VARIABLES: tuple[tuple[Callable[[bytes], bool], str], ...] = (

@@ -91,3 +91,41 @@ def test_a_damaged_document_is_told(tmp_path: Path) -> None:
         (tmp_path / "log.json").write_text(text)
         with pytest.raises(RecordingError, match="is no complete JSON"):
             read_json_table(tmp_path / "log.json")
+
+
+RUNS = [{"type": kind, "voltage": VOLTS[at].tolist(), "rpm": SPEED[at].tolist()} for kind, at in (
+    ("chirp", slice(0, 150)), ("step", slice(40, 70)), ("step", slice(90, 130)),
+)]  # fmt: skip
+
+
+@pytest.mark.parametrize("around", [lambda runs: runs, lambda runs: {"rate": 50, "data": runs}])
+def test_every_run_of_a_list_is_a_recording(tmp_path: Path, around: Any) -> None:
+    imported = import_log(write(tmp_path, around(RUNS)), Said(sample_period=0.02))
+    (motor,) = imported.motors
+    assert [(run.label, len(run.samples)) for run in motor.log.runs] == [
+        ("chirp_1", 150),
+        ("step_2", 30),
+        ("step_3", 40),
+    ]
+    assert any("has a list of 3 runs" in line for line in imported.findings)
+    assert not any("Left out" in line for line in imported.findings)
+
+
+def test_runs_that_hold_their_samples_as_objects_or_have_no_name(tmp_path: Path) -> None:
+    runs = [{"id": 7, "samples": OBJECTS[:100]}, {"id": 8, "samples": OBJECTS[100:]}]
+    (motor,) = import_log(write(tmp_path, {"runs": runs}), Said()).motors
+    assert [(run.label, len(run.samples)) for run in motor.log.runs] == [("run_1", 100), ("run_2", 100)]
+
+
+def test_what_of_the_same_columns_is_not_read_is_said(tmp_path: Path) -> None:
+    """Not one run beside another: which of them is the log, nothing tells; and runs of hardly any rows."""
+    two = read_json_table(write(tmp_path, {"short": OBJECTS[:20], "long": COLUMNS}))
+    assert two.notes == (
+        "Left out: 1 more table of the same columns (the largest is read): give each in a file of its own.",
+    )
+    assert read_json_table(write(tmp_path, {"gains": {"p": [1, 2], "i": [3, 4]}, "log": COLUMNS})).notes == ()
+    stub = {name: column[:4] for name, column in COLUMNS.items()}
+    few = read_json_table(write(tmp_path, [COLUMNS, stub]))
+    assert len(few) == 200 and few.names == NAMES and few.notes[0].startswith("Left out: 1 of the list")
+    few = read_json_table(write(tmp_path, [COLUMNS, stub, COLUMNS]))
+    assert len(few) == 400 and few.notes[1] == "Left out: 1 of the list, of fewer than 5 rows."
