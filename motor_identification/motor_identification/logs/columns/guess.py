@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,7 +19,7 @@ from motor_identification.logs.columns.heading import read_heading
 from motor_identification.logs.columns.motor_form import STEPS_BETWEEN, Rows, make_form, share_of_changes
 from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.roles.roles import Roles, find_roles
-from motor_identification.logs.columns.said import Said
+from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.columns.vocabulary import Quantity
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import TIME_UNITS, CsvForm, Kind, time_unit_size
@@ -44,7 +44,7 @@ def guess_forms(table: Table, said: Said) -> Guess:
     Raises:
         RecordingError: what cannot be guessed, all of it in one sentence with the options that say it.
     """
-    roles = find_roles(table, said)
+    roles, still = _without_still(table, find_roles(table, said), said)
     notes = Notes([], [])
     if roles.left_out:
         notes.findings.append(
@@ -56,14 +56,29 @@ def guess_forms(table: Table, said: Said) -> Guess:
     forms = [make_form(table, pair, roles, said, rows, notes) for pair in roles.pairs]
     if notes.questions:
         raise RecordingError(f"{table.path}: {_ask_once(notes.questions)}.")
-    return Guess(tuple(forms), tuple(dict.fromkeys(notes.findings)))
+    return Guess(tuple(forms), tuple(dict.fromkeys([*notes.findings, *still])))
+
+
+def _without_still(table: Table, roles: Roles, said: Said) -> tuple[Roles, list[str]]:
+    """Leave out motors that are not driven and never move, beside one that is: nothing is asked about them."""
+    still = [pair for pair in roles.pairs if not _is_driven(table, pair) and not np.ptp(table.numbers(pair.motion)) > 0]
+    if said.motors or not any(_is_driven(table, pair) for pair in roles.pairs):
+        return roles, []
+    left = [f"Left out: motor {pair.label}, which is not driven and hardly moves." for pair in still]
+    return replace(roles, pairs=tuple(pair for pair in roles.pairs if pair not in still)), left
+
+
+def _is_driven(table: Table, pair: Pair) -> bool:
+    return bool(np.any(table.numbers(pair.voltage)))
 
 
 def _check_drive(table: Table, roles: Roles, said: Said) -> None:
-    """Refuse the only motor's drive that is 0 in every row, before its supply and the motion's unit are asked for."""
-    drive = roles.pairs[0].voltage
-    if len(roles.pairs) == 1 and not said.max_voltage and len(table) and not np.any(table.numbers(drive)):
-        raise RecordingError(f"{table.path}: {drive} is 0 in every row: check --voltage, or give --max-voltage.")
+    """Refuse drives that are all 0 in every row, before their supply and the motions' units are asked for."""
+    if said.max_voltage or not len(table) or any(_is_driven(table, pair) for pair in roles.pairs):
+        return
+    zero = " and ".join(dict.fromkeys(pair.voltage for pair in roles.pairs))
+    drives = f"{zero} is" if len(roles.pairs) == 1 else f"{zero} are"
+    raise RecordingError(f"{table.path}: {drives} 0 in every row: check --voltage, or give --max-voltage.")
 
 
 def _rows(table: Table, roles: Roles, said: Said, notes: Notes) -> Rows:

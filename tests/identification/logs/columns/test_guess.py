@@ -189,3 +189,26 @@ def test_a_drive_that_is_0_is_refused_before_anything_is_asked(
     (tmp_path / "log.csv").write_text("\n".join(["t [s],Control,speed", *rows]))
     with pytest.raises(RecordingError, match=asked):
         guess_forms(read_table(tmp_path / "log.csv"), Said())
+
+
+@pytest.mark.parametrize(
+    ("drive", "moves", "asked"),
+    [(0, 1, "a_effort and b_effort are 0 in every row: check --voltage"), (1, 1, "b_effort as a duty")],
+)
+def test_of_axes_that_are_not_driven_nothing_is_asked(drive: int, moves: int, asked: str, tmp_path: Path) -> None:
+    """One that is, is the motor; where none is, that is said first, whichever moves."""
+    rows = [f"{0.02 * k:.2f},0,7,{drive * (k // 20 % 2)},{moves * (k % 7)}.5" for k in range(120)]
+    (tmp_path / "log.csv").write_text("\n".join(["t [s],a_effort,a_position,b_effort,b_position", *rows]))
+    with pytest.raises(RecordingError, match=asked) as told:
+        guess_forms(read_table(tmp_path / "log.csv"), Said())
+    if drive:
+        assert "a_" not in str(told.value).partition("log.csv")[2]
+        guess = guess_forms(read_table(tmp_path / "log.csv"), Said(supply_voltage=12.0, unit="rad"))
+        assert [form.motion for form in guess.forms] == ["b_position"]
+        assert guess.findings[-1] == "Left out: motor a, which is not driven and hardly moves."
+
+
+def test_an_axis_that_is_not_driven_but_moves_is_one(tmp_path: Path) -> None:
+    rows = [f"{0.02 * k:.2f},0,{k % 5}.5,{k // 20 % 2},{k % 7}.5" for k in range(120)]
+    (tmp_path / "log.csv").write_text("\n".join(["t [s],a_effort,a_position,b_effort,b_position", *rows]))
+    assert len(guess_forms(read_table(tmp_path / "log.csv"), Said(supply_voltage=12.0, unit="rad")).forms) == 2

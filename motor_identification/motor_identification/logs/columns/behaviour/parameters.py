@@ -17,7 +17,8 @@ FEWEST_CHANGES = 10  # of the motion beside it, where a motor moves
 def leave_out_parameters(table: Table, headings: Sequence[Heading]) -> list[Heading]:
     """Read parameters as such: speeds that stay at a number other than 0 while another motion goes on.
 
-    And what drives or moves under the same name. A motor that stands has a speed of 0.
+    And what drives or moves under the same name, but for a position that goes on with a drive of that name beside it. A
+    motor that stands has a speed of 0.
     """
     changes = {one.name: _count_changes(table, one.name) for one in headings if one.quantity in MOVES}
     set_once = [
@@ -27,6 +28,9 @@ def leave_out_parameters(table: Table, headings: Sequence[Heading]) -> list[Head
     ]
     if max(changes.values(), default=0) < FEWEST_CHANGES:
         return list(headings)
+    motors = {words_besides(one) for one in headings if drives(one)}
+    motors &= {words_besides(one) for one in headings if changes.get(one.name, 0) >= FEWEST_CHANGES}
+    set_once = [one for one in set_once if words_besides(one) not in motors - {()}]  # an axis that went on evenly
     names = {words_besides(one) for one in set_once} - {()}
     return [
         replace(one, quantity=Quantity.OTHER)

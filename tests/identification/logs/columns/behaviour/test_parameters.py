@@ -35,3 +35,10 @@ def test_motors_are_no_parameters() -> None:
     assert left(a_volts=DRIVE, a_rpm=slow, **turns) == ["a_volts", "a_rpm", "b_volts", "b_rpm"]
     assert left(a_volts=DRIVE, a_rpm=SET_ONCE) == ["a_volts", "a_rpm"]  # nothing else moves
     assert left(a_volts=DRIVE, a_rpm=SET_ONCE, **turns) == ["b_volts", "b_rpm"]
+
+
+def test_an_axis_whose_position_goes_on_is_no_parameter_however_even_its_speed() -> None:
+    even = {"roll_effort": DRIVE, "roll_position": 7.0 * TIME, "roll_velocity": np.where(TIME < 1.0, -10.0, -15.0)}
+    assert left(**even) == list(even)
+    assert left(**{**even, "roll_position": np.full(ROWS, 2.0)}, b_rpm=FOLLOWS) == ["b_rpm"]
+    assert left(roll_position=even["roll_position"], roll_velocity=even["roll_velocity"], b_rpm=FOLLOWS) == ["b_rpm"]
