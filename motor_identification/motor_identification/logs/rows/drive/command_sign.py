@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from motor_identification.logs.rows.drive.one_channel import compare_signs, count_up, find_ways
-from motor_identification.logs.signals import Floats, Signals
+from motor_identification.logs.signals import Bools, Floats, Signals
 
 AGAINST = 0.01  # of the counts, that may go against the voltage: edges came between the sign and the row
 # Rows behind that in which the voltage's sign changed, and how much of their counts may go against it. Measured: all of
@@ -18,6 +18,7 @@ AGAINST = 0.01  # of the counts, that may go against the voltage: edges came bet
 BEHIND = 3
 AGAINST_BEHIND = 0.25
 FEWEST_TURNS = 3  # changes of the voltage's sign at which the motor turns
+MOSTLY = 0.5  # of these changes, at which the counts go back as well: a controller brakes a motor for some rows first
 # Of the largest counts of a row, that it turns by there at least: one that has coasted nearly to a stop before it is
 # driven the other way goes there at once, whoever gives the sign. Measured: 0.05 of a tachogenerator.
 AT_SPEED = 0.1
@@ -44,9 +45,8 @@ def take_off_commands_sign(signals: Signals) -> Signals | None:
     way = ways[int(np.argmin(against))]
     slow = AT_SPEED * float(np.max(np.abs(steps)))
     turns = (way[1:] * way[:-1] < 0.0) & (np.abs(steps[1:]) > slow) & (np.abs(steps[:-1]) > slow)
-    if np.count_nonzero(turns) < FEWEST_TURNS:
-        return None
-    if _turns_on(steps, way):
+    back = np.count_nonzero(turns & _go_back(steps, slow))
+    if back < FEWEST_TURNS or back <= MOSTLY * np.count_nonzero(turns) or _turns_on(steps, way):
         return None
     unsigned = signals.motion.copy()
     for run in signals.runs.values():
@@ -54,6 +54,12 @@ def take_off_commands_sign(signals: Signals) -> Signals | None:
     bare = replace(signals, motion=unsigned)
     either_way, signed = compare_signs(bare, steps)
     return bare if either_way < BETTER * signed and find_ways(bare) is not None else None
+
+
+def _go_back(steps: Floats, slow: float) -> Bools:
+    """Tell behind which rows, shape (K - 1,), or a row off, counts (K,) change their sign, and are not slow."""
+    back = (steps[1:] * steps[:-1] < 0.0) & (np.abs(steps[1:]) > slow) & (np.abs(steps[:-1]) > slow)
+    return np.convolve(back, np.ones(3), mode="same") > 0.0
 
 
 def _turns_on(steps: Floats, way: Floats) -> bool:
