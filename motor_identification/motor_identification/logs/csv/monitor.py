@@ -16,7 +16,9 @@ _STAMPS = (
 )
 _CELL = (
     r"\s{0,8}(?P<name>[^\W\d][\w /%°\[\]()]{0,40}?)\s{0,8}[:=]"
-    r"\s{0,8}(?P<value>[+-]?(?:\d+(?:[.,]\d+|\.)?|\.\d+)(?:[eE][+-]?\d+)?)\s{0,8}"
+    r"\s{0,8}(?P<value>[+-]?(?:\d+(?:[.,]\d+|\.)?|\.\d+)(?:[eE][+-]?\d+)?)"
+    # A tab parts cells: what stands behind one is a unit only where it is all of its cell.
+    r"(?:\s{0,8}(?=[^\s,;|:=]{1,9}[^\S\t]{0,8}(?:[\t,;|]|$))|[^\S\t]{0,8})"
     r"(?P<unit>[^\W\d_][\w/]{0,7}(?![\w/]*\s{0,8}[:=])|%|°)?\s{0,8}"
 )
 _NAME, _NUMBER = re.compile(r"[^\W\d][\w /%°\[\]()]{0,40}"), re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")

@@ -42,6 +42,18 @@ def test_units_that_nobody_knows_are_kept_behind_the_names() -> None:
     assert not take_apart(["Thrust: 3 lbs, RPM: 90"] * 9).names and not take_apart(["a:1, b:2 retries"] * 9).names
 
 
+def test_behind_a_tab_a_name_of_several_words_begins_and_a_unit_is_all_of_its_cell() -> None:
+    """As an Arduino printed them: of `Pulsos por periodo` the first word was the unit of the number before."""
+    row = "Tempo: 0.02s\tVelocidade do Motor: -77 RPM\tPWM: 236.00\t Pulsos por periodo: 4"
+    taken = take_apart([row] * 9)
+    assert taken.names == ("Tempo [s]", "Velocidade do Motor [rpm]", "PWM", "Pulsos por periodo")
+    assert taken.lines[0] == "0.02;-77;236.00;4"
+    assert take_apart(["PWM: 236\tV motor: 5"] * 9).names == ("PWM", "V motor")
+    assert take_apart(["w: 3\trpm\tu: 4\tV"] * 9).names == ("w [rpm]", "u [V]")
+    assert take_apart(["w: 3 rpm u: 4 V"] * 9).names == ("w [rpm]", "u [V]")
+    assert not take_apart(["PWM: 236 Pulsos por periodo: 4"] * 9).names  # by blanks alone nothing tells where it begins
+
+
 def test_other_tables_are_left_alone() -> None:
     for line in ("0,1,2", "12:00:00.5,1,2", "a:1", "a:1 b", "a=1;a=2", "x: " * 50_000):
         taken = take_apart([line] * 10)
