@@ -18,6 +18,8 @@ from motor_identification.recording import Floats
 INCONSISTENT_SCORE = 10.0
 # Residual beside the common motor over that beside the own one, from which on it is worth a word.
 INCONSISTENT_RATIO = 1.25
+# Values left for each degree of freedom, from which on a recording is a witness: five rows fit a motor of their own.
+FEWEST_A_FREEDOM = 5
 
 
 @dataclass(frozen=True)
@@ -27,7 +29,7 @@ class Dissent:
     uri: str
     common: float  # [rad/s] RMS of simulated − measured beside the motor of all recordings
     own: float  # [rad/s] beside its own, to first order
-    score: float  # mean square of a gained degree of freedom over that of what is left
+    score: float  # mean square of a gained degree of freedom over that of what is left; 0 of too few values to tell
 
     @property
     def disagrees(self) -> bool:
@@ -51,15 +53,15 @@ def _compare_one(fit: WhitenedFit, r: int, jacobian: Floats, residuals: Floats) 
     scale = problem.unknowns.high - problem.unknowns.low
     columns = np.column_stack([encoder.white(column * duration) for column in (jacobian * scale).T])
     shift, _, rank, _ = np.linalg.lstsq(columns, -white, rcond=1e-6)
-    left, freedom = float(np.sum((white + columns @ shift) ** 2)), max(len(residuals) - int(rank), 1)
-    gained = float(np.sum(white**2)) - left
+    left, freedom = float(np.sum((white + columns @ shift) ** 2)), len(residuals) - int(rank)
+    gained = float(np.sum(white**2)) - left if freedom >= FEWEST_A_FREEDOM * int(rank) else 0.0
     weight = duration / duration.sum()
     own = residuals + jacobian @ (shift * scale)
     return Dissent(
         uri=problem.recordings[r].uri,
         common=float(np.sqrt(weight @ residuals**2)),
         own=float(np.sqrt(weight @ own**2)),
-        score=gained / max(int(rank), 1) / max(left / freedom, 1e-300),
+        score=gained / max(int(rank), 1) / max(left / max(freedom, 1), 1e-300),
     )
 
 

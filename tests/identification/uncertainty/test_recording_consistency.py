@@ -45,6 +45,19 @@ def test_another_motor_disagrees() -> None:
     assert found[3].common > 3.0 * found[3].own
 
 
+@pytest.mark.parametrize(("duration", "values", "tells"), [(0.03, 7, False), (0.05, 15, True)])
+def test_a_few_values_are_no_witness(duration: float, values: int, tells: bool) -> None:
+    """They fit a motor of their own as well as they like: five rows behind a gap left 10^-14 rad/s."""
+    drives, gains = (DRIVE, profiles.pieces([9.0], duration)), (1.0, 1.1)
+    recordings = [
+        check(record(TRUE | {"kv": gain * TRUE["kv"]}, *drive, seed=seed, irregularity=0.003, name=f"{seed}")[0])
+        for seed, (drive, gain) in enumerate(zip(drives, gains, strict=True))
+    ]
+    fit = make_whitened(fit_speeds(Estimate(make_problem(recordings, ("coulomb_friction",)), THETA)))
+    assert len(fit.problem.split(fit.problem.residuals(fit.theta))[1]) == values
+    assert compare_recordings(fit)[1].disagrees is tells
+
+
 def test_a_single_recording_has_nobody_to_disagree_with() -> None:
     assert compared(1.0) == ()
 
