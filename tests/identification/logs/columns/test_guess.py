@@ -108,6 +108,18 @@ def test_rows_far_apart_with_a_voltage_each_are_steady_states(tmp_path: Path, pe
 
 
 @pytest.mark.parametrize(
+    ("target", "steady"),
+    [("100", False), ("{k}", True), ("0", True)],  # held; a curve's own; of no controller
+)
+def test_rows_far_apart_under_a_controller_are_no_steady_states(tmp_path: Path, target: str, steady: bool) -> None:
+    rows = [f"{k},{target.format(k=k)},{k % 7 + 1},{10 * (k % 7)}" for k in range(40)]
+    (tmp_path / "log.csv").write_text("\n".join(["t [s],Setpoint,u,speed [rpm]", *rows]))
+    guess = guess_forms(read_table(tmp_path / "log.csv"), Said())
+    assert (guess.forms[0].time is None) == steady
+    assert any("Caution: rows are 1 s apart, and a controller" in line for line in guess.findings) != steady
+
+
+@pytest.mark.parametrize(
     ("name", "step", "unit"),
     [("time_us", 5e-4, "s"), ("time_us", 1000.0, "us"), ("t_ms", 9e-4, "s"), ("t_ms", 0.01, "ms")],
 )
