@@ -161,6 +161,13 @@ def test_an_esc_gets_pulses_and_no_duty(largest: float, pulse: bool) -> None:
     assert duty_drive(read_heading("pwm"), np.array([0.0, largest])).sure
 
 
+@pytest.mark.parametrize(("least", "pulse"), [(400.0, True), (45.0, False)])
+def test_what_is_shorter_than_any_pulse_is_an_escs_digital_command(least: float, pulse: bool) -> None:
+    drive = duty_drive(read_heading("ESC signal"), np.array([0.0, least, 1796.0]))
+    assert ("ESC's pulse in µs" in drive.why) == pulse and not drive.sure
+    assert pulse or drive.why.startswith("goes from 45 to 1796, no pulse in µs but as digital commands do (of DSHOT:")
+
+
 @pytest.mark.parametrize(("largest", "pulse"), [(1994.0, True), (999.0, False), (2501.0, False)])
 def test_a_servo_gets_pulses_and_no_duty_of_twelve_bits(largest: float, pulse: bool) -> None:
     drive = duty_drive(read_heading("Servo 3 (µs)"), np.array([900.0, largest]))
