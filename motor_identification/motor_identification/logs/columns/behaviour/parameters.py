@@ -26,12 +26,13 @@ def leave_out_parameters(table: Table, headings: Sequence[Heading]) -> list[Head
         for one in headings
         if one.quantity is Quantity.SPEED and changes[one.name] <= MOST_CHANGES and np.all(table.numbers(one.name))
     ]
-    if max(changes.values(), default=0) < FEWEST_CHANGES:
-        return list(headings)
     motors = {words_besides(one) for one in headings if drives(one)}
     motors &= {words_besides(one) for one in headings if changes.get(one.name, 0) >= FEWEST_CHANGES}
     set_once = [one for one in set_once if words_besides(one) not in motors - {()}]  # an axis that went on evenly
     names = {words_besides(one) for one in set_once} - {()}
+    others = [one for one in headings if one not in set_once and words_besides(one) not in names]
+    if not any(changes.get(one.name, 0) >= FEWEST_CHANGES for one in others):
+        return list(headings)  # the motion that goes on is that of the same name
     return [
         replace(one, quantity=Quantity.OTHER)
         if one in set_once or (words_besides(one) in names and (drives(one) or one.quantity in MOVES))

@@ -8,6 +8,7 @@ from motor_identification.logs.columns.behaviour.parameters import leave_out_par
 from motor_identification.logs.columns.heading import read_heading
 from motor_identification.logs.columns.roles.roles import find_roles
 from motor_identification.logs.columns.said import Pair, Said
+from motor_model.errors import RecordingError
 
 ROWS = len(TIME)
 SET_ONCE = np.where(np.arange(ROWS) < 120, 0.01, 1.97)
@@ -42,3 +43,11 @@ def test_an_axis_whose_position_goes_on_is_no_parameter_however_even_its_speed()
     assert left(**even) == list(even)
     assert left(**{**even, "roll_position": np.full(ROWS, 2.0)}, b_rpm=FOLLOWS) == ["b_rpm"]
     assert left(roll_position=even["roll_position"], roll_velocity=even["roll_velocity"], b_rpm=FOLLOWS) == ["b_rpm"]
+
+
+def test_a_motion_of_the_same_name_is_no_other_one_that_goes_on() -> None:
+    """A log of one axis without its drive: time, position and velocity were offered as the voltage."""
+    axis = {"pitch_position": 7.0 * TIME, "pitch_velocity": np.full(ROWS, 7.0)}
+    assert left(**axis) == list(axis)
+    with pytest.raises(RecordingError, match="no column is the voltage or duty: t is a time, pitch_position is a pos"):
+        find_roles(columns(t=TIME, **axis), Said())
