@@ -12,6 +12,10 @@ it to go on by itself.
 That there are two is said once the first is heard again after the other: one sender that was held up sends what it has
 missed all at once, more than is kept, and its numbers jump ahead as another's would. Its next numbers go on from there.
 
+Two that call themselves the same are told apart by their numbers. Where a command that is taken may as well have been
+the other's, as its numbers are close and come unevenly, nobody knows whose voltage it is: the motor gets 0 V as long as
+both are heard, and who is left has to begin at 0 V.
+
 Where the motor itself was the reason of a stop, it is let on again later and later: see `RepeatedStops`. Who goes on
 calling motor/enable with data: true through a stop, or somebody else's data: false, has not seen it.
 
@@ -61,6 +65,10 @@ INSISTED = (
 TWO_SENDERS = (
     "More than one node sends motor/voltage{}: only {} is obeyed, until it has been silent for {:g} s; end the others."
 )
+MIXED = (
+    "More than one node sends motor/voltage{}, all with frame_id '{}', and whose command is whose cannot be told: the"
+    " motor gets 0 V; end all but one, and let that one send 0 V, or call motor/enable with data: true."
+)
 NO_NUMBER = "{:g} on motor/voltage is not a number (frame_id '{}'{}): {}; send numbers, or end who sends it."
 GETS_NOTHING = "the motor gets 0 V until the next number"
 LEFT_ASIDE = "it is left aside beside the sender that is obeyed"
@@ -97,6 +105,8 @@ class Gate:
     aside: Sender | None = None  # the latest command that seemed another's, until the sender is heard again
     rival: str | None = None  # what another sender calls itself that sends at the same time
     rival_at: int = 0  # [ns] when the two had both been heard
+    beside: Sender | None = None  # the rival's latest command that was left aside
+    mixed: bool = False  # since both are heard, a command that was taken may have been the rival's
     refused: int = 0  # commands that were not numbers
     no_number: NoNumber | None = None  # the latest of those
     calls: int = 0  # to switch on what was on, one soon after the other
@@ -127,14 +137,16 @@ class Gate:
         unheard = holder is not None and self._goes_on_unheard(holder, ours, number, now)
         if holder is not None and unheard and not ours:
             return replace(self.come_up(holder.at), sender=None, away=True).take(*what)
-        told = self._tell_senders(number, now) if ours else replace(self, aside=None)
+        told = self._tell_senders(number, now) if ours else replace(self, aside=None, beside=None, mixed=False)
+        unsure = told._may_be_the_rivals(name, number, now)
         sender = holder.after(number, now) if holder is not None and ours else Sender(name, number, now)
         first = self.first if ours and self.first is not None else sender
-        handed = voltage != 0.0 and (self.handed or (not ours and self.conflict(now)))
+        handed = voltage != 0.0 and (self.handed or unsure or (not ours and self.conflict(now)))
         begun = self.begun or voltage == 0.0 or _began(first, number, now, self.since, self.sample_period * 1e9)
         begun = begun and not handed
         received = now - waited if sent is None or sent >= self.switched else None
         told = replace(told, command=voltage, received=received, sender=sender, first=first, handed=handed)
+        told = replace(told, mixed=unsure or (told.mixed and self.conflict(now)))
         if voltage != 0.0 and (unheard or waited > max(AWAY, self.timeout * 1e9)):  # it began before, whatever its pace
             return replace(told, first=replace(first, number=None), begun=False, away=True)
         return replace(told, begun=begun)
@@ -175,7 +187,19 @@ class Gate:
         holder, aside = self.sender, self.aside
         if holder is None or aside is None or now - aside.at > HOLD or holder.sent_between(aside, number):
             return replace(self, aside=None)
-        return replace(self, aside=None, rival=aside.name, rival_at=now)
+        return replace(self, aside=None, rival=aside.name, rival_at=now, beside=aside)
+
+    def _may_be_the_rivals(self, name: str, number: int | None, now: int) -> bool:
+        """Whether a command that may be the sender's is as soon that of a rival with its name, or one before was."""
+        holder, beside = self.sender, self.beside if self.conflict(now) else None
+        if holder is None or beside is None or beside.name != name:
+            return False
+        if number is None or holder.number is None or beside.number is None:
+            return True
+        jumped = holder.jumped_from is not None and now - holder.jumped <= CONFLICT
+        if jumped and (holder.jumped_from or 0) < beside.number < holder.number:
+            return True  # the first goes on where it was, and who is obeyed is the one that came farther ahead
+        return beside.number >= holder.number and replace(beside, period=holder.period).sent(name, number, now)
 
     def enable(self, on: bool, now: int = 0) -> "Gate":
         """Switch the output at `now` [ns], by the user's will; a command from before the switch never acts."""
@@ -211,6 +235,8 @@ class Gate:
 
     def voltage(self, now: int) -> float:
         """[V] to apply at `now` [ns]."""
+        if self.mixed and self.conflict(now):
+            return 0.0
         return self.command if self.enabled and self.begun and self.fresh(now) else 0.0
 
     def conflict(self, now: int) -> bool:
@@ -234,6 +260,8 @@ class Gate:
     def _tell_of_senders(self, now: int, senders: str) -> str:
         if self.conflict(now):
             among = f" ({senders})" if senders else ""
+            if self.mixed:
+                return MIXED.format(among, self.rival)
             obeyed = f"frame_id '{self.sender.name}'" if self.sender and self.sender.name != self.rival else "the first"
             return TWO_SENDERS.format(among, obeyed, HOLD * 1e-9)
         if self.enabled and not self.begun and self.fresh(now):

@@ -4,7 +4,7 @@ rclpy passes on no identity of a publisher, but the number that the middleware h
 sender's numbers go up by one with each message it sends; a message whose number does not fit is somebody else's.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 CLOSEST = 0.5  # of the time that as many messages took when they came quickest: they come no closer together
 QUICKEST = 1_000_000  # [ns] between two commands, while that time is not known: no plant samples faster
@@ -18,6 +18,8 @@ class Sender:
     number: int | None
     at: int  # [ns] when it came
     period: int = 0  # [ns] the shortest between two with successive numbers; 0: not known
+    jumped_from: int | None = None  # the number before the latest ones that are missing
+    jumped: int = 0  # [ns] when the one behind those came
 
     def sent(self, name: str, number: int | None, now: int) -> bool:
         """Whether a message that comes at `now` [ns] is this sender's next one, or a later one."""
@@ -43,6 +45,6 @@ class Sender:
         messages come as quickly as ever, and some of them are lost.
         """
         if number is None or self.number is None or number != self.number + 1:
-            return Sender(self.name, number, now, self.period)
+            return Sender(self.name, number, now, self.period, self.number, now)
         took = max(now - self.at, QUICKEST)
-        return Sender(self.name, number, now, min(took, self.period or took))
+        return replace(self, number=number, at=now, period=min(took, self.period or took))

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from itertools import count
 from math import inf, nan
+from random import Random
 
 import pytest
 from hypothesis import given, settings
@@ -391,6 +392,63 @@ def test_of_two_controllers_with_one_frame_id_one_is_obeyed_and_both_are_told(ah
         acted.append(plant.voltage(now + 300_000))
     assert plant.conflict(now + MS) and plant.problem(now + MS).startswith("More than one node")
     assert len(set(acted[1:])) == 1
+
+
+def uneven(voltage: float, ahead: int, chance: Random, seconds: int = 4) -> list[tuple[int, float, int]]:
+    """100 commands a second, each up to 6 ms early or late, in order: time [ns], voltage, number."""
+    times = [T0 + int((10 * (k + 1) + chance.uniform(-6.0, 6.0)) * MS) for k in range(100 * seconds)]
+    return [(max(times[: k + 1]) + k, voltage, 1 + k + ahead) for k in range(len(times))]
+
+
+@pytest.mark.parametrize("ahead", [0, 1, 2, 5, 20])
+@pytest.mark.parametrize("seed", range(4))
+def test_of_two_with_one_name_that_cannot_be_told_apart_none_drives(ahead: int, seed: int) -> None:
+    """Two `ros2 topic pub`, started at once, jolted the motor from 6 V to -6 V and back up to 50 times a second.
+
+    The one that is left begins at 0 V, or by motor/enable; an enable while both send changes nothing.
+    """
+    chance = Random(seed)
+    plant, applied, now = gate(), [], T0
+    for now, voltage, number in sorted(uneven(6.0, 0, chance) + uneven(-6.0, ahead, chance)):
+        plant = plant.take(voltage, now, "", number)
+        plant = plant.enable(True, now) if now == T0 + 2_000 * MS else plant
+        applied.append((now, plant.voltage(now)))
+    driven = [voltage for _, voltage in applied if voltage]
+    assert sum(a != b for a, b in zip(driven, driven[1:], strict=False)) <= 2
+    late = {voltage for at, voltage in applied if at > T0 + 1_000 * MS}
+    assert late == {0.0} or (ahead == 20 and len(late) == 1)  # far ahead they may well be told apart
+    if late == {0.0}:
+        problem = plant.problem(now, "/left, /right")
+        assert problem.startswith("More than one node sends motor/voltage (/left, /right), all with frame_id ''")
+        end, number = now + 2 * CONFLICT, 600
+        for k in range(400):
+            plant = plant.take(6.0, now + 10 * k * MS, "", number + k)
+            assert plant.voltage(now + 10 * k * MS) == 0.0
+        end, number = now + 4_000 * MS, number + 400
+        assert plant.enable(True, end).take(6.0, end, "", number).voltage(end) == 6.0
+        assert plant.take(0.0, end, "", number).take(6.0, end + 10 * MS, "", number + 1).voltage(end + 10 * MS) == 6.0
+
+
+@pytest.mark.parametrize("ahead", [2, 5])
+def test_who_comes_a_little_ahead_under_the_first_ones_name_does_not_take_over(ahead: int) -> None:
+    """At an even pace: the first one's next numbers are those that were missing before it."""
+    plant, applied = stream(gate(), 6.0, range(0, 500, 10), 1), []
+    late = 500 + 5 * ahead
+    plant = stream(plant, 6.0, range(500, late - 5, 10), 51)
+    for k in range(100):
+        now = T0 + (late + 10 * k) * MS
+        plant = plant.take(-6.0, now, "", 51 + k + ahead + late // 10 - 50)
+        plant = plant.take(6.0, now + 3 * MS, "", 51 + k + (late - 500) // 10)
+        applied.append(plant.voltage(now + 4 * MS))
+    assert set(applied[2:]) in ({0.0}, {6.0})
+
+
+def test_one_that_is_ended_and_started_again_beside_nobody_is_not_two() -> None:
+    """Its numbers begin again, with 0 V; the one of before is heard no more."""
+    plant = stream(gate(), 6.0, range(0, 500, 10), 1)
+    plant = stream(plant, 0.0, range(600, 650, 10), 1)
+    plant = stream(plant, 6.0, range(650, 1_700, 10), 6)
+    assert plant.voltage(T0 + 1_690 * MS) == 6.0 and not plant.problem(T0 + 1_690 * MS)
 
 
 @pytest.mark.parametrize(("sent", "begun"), [(190, True), (210, False)])
