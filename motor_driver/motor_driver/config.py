@@ -68,6 +68,11 @@ class Config:
         return max(ROUND_TRIP, self.command_timeout)
 
     @property
+    def confirmation(self) -> float:
+        """[s] within which telemetry says that the output is on, once that was asked for."""
+        return 2.0 * (self.round_trip + 1.0 / self.sample_rate)
+
+    @property
     def full_voltage(self) -> float:
         """[V] at full duty, as far as the parameters say."""
         return self.supply_voltage or self.max_voltage

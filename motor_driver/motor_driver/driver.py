@@ -28,6 +28,10 @@ REPLAYED = (
     "the board on {} obeyed a command that this driver had not sent, or an old one again: see who else writes to that "
     "port, or what repeats bytes on the way"
 )
+DEAF = (
+    "the board on {} says what it measures and does nothing that it is told, as if it heard nothing: see the wire or "
+    "the adapter from the computer to the board"
+)
 ASKED = ("sample_period", "command_timeout", "decay", "latch", "reset_cause")  # of a hello: they change without a reset
 LOST = "the link to the board on {} was lost"
 
@@ -122,6 +126,8 @@ class Driver:
             return f"No telemetry comes from {self.session.port}."
         if self.session.exchange and self.session.exchange.late:
             return f"No voltage acts in time: {self._lateness(self.session.port)}."
+        if self.session.exchange and self.session.exchange.deaf:
+            return f"No voltage acts: {DEAF.format(self.session.port)}."
         if self.session.runs:
             return ""
         return self.session.handshake.refusal or f"The board on {self.session.port} has not answered yet."
@@ -165,6 +171,8 @@ class Driver:
             self._halt(f"no telemetry from {session.port} for {self.config.silence * 1e3:.0f} ms")
         elif session:
             self._check_lateness(session, now)
+            if session.switch.unheard(now, self.config.confirmation * 1e9):
+                self._halt(DEAF.format(session.port))
         (stop, motor), self._stop, self._by_motor = (self._stop, self._by_motor), "", False
         wish = wish and not stop
         duty = self._readout.duty(voltage) if self._readout else 0

@@ -20,6 +20,9 @@ MEMORY = 64  # pings that may still be answered
 # count beside two that have come: who waits for all five stops a motor a third later. Alone they do not, for a noisy
 # line loses some; what it does not lose comes in time.
 LATE, COME = 5, 2
+DEAF = (
+    500_000_000  # [ns] of pings without any answer beyond what one may take: no noise that lets a motor run does that
+)
 BITS = 10  # a byte on the line, start and stop bit included
 
 
@@ -49,6 +52,11 @@ class Exchange:
     def late(self) -> bool:
         """Whether the link holds back what goes over it."""
         return self._late >= COME and self._late + self._overdue >= LATE
+
+    @property
+    def deaf(self) -> bool:
+        """Whether the board answers nothing, as where what is sent does not reach it; of a driver that asks."""
+        return (self._token - self._answered) * PING_EVERY > self._longest + DEAF
 
     def look(self, now: int) -> None:
         """Look which pings after the newest answer take too long at `now` already."""

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from motor_driver.config import Config
-from motor_driver.driver import Driver
+from motor_driver.driver import DEAF, Driver
 from motor_driver.exchange import Exchange
 from motor_driver.frames.from_board import Hello
 from motor_driver.protocol import LinkCounters
@@ -45,6 +45,7 @@ def problem(driver: Driver, was: Tally, now: int) -> str:
     sentences = (
         session.handshake.problem(now),
         f"No telemetry comes from {session.port}: see its cable, or reset the board." if session.silent else "",
+        capital(DEAF.format(session.port)) if driver.runs and session.exchange and session.exchange.deaf else "",
         capital(driver.motion.finding),
         _supply(driver),
         f"Only {rate:.0f} samples per second come instead of {driver.config.sample_rate:.0f}: close other programs, or "

@@ -7,6 +7,7 @@ from motor_driver.frames.from_board import Telemetry
 from motor_driver.frames.from_host import Enable
 
 ASK_EVERY = 10_000_000  # [ns]
+ASKED = 10  # times that a board is asked to switch on, before it counts as deaf: a driver that stands still asks once
 HELD_UP = "the board heard no command for too long and switched off"
 OVERCURRENT = (
     "the motor's current was above current_limit, or above continuous_current for too long: see what holds the shaft, "
@@ -44,6 +45,7 @@ class Switch:
         self.output = Output.OFF  # to configure is to switch off
         self._asked: int | None = None
         self._named: int | None = None  # latch in the latest enable, while turning on
+        self._enables, self._since = 0, 0  # while turning on: how often that was asked for, and since when [ns]
 
     @property
     def listening(self) -> bool:
@@ -81,7 +83,13 @@ class Switch:
         if self.output is Output.TURNING_OFF or latest is None:
             return Enable(0)
         self._named = latest.latch
+        self._enables, self._since = self._enables + 1, self._since if self._enables else now
         return Enable(1, latest.boot, latest.latch)
 
+    def unheard(self, now: int, longest: float) -> bool:
+        """Whether at `now` the board has not switched on for more than `longest` [ns], however often it was asked."""
+        turning_on = self.output is Output.TURNING_ON
+        return turning_on and self._enables >= ASKED and now - self._since > longest
+
     def _go(self, output: Output) -> None:
-        self.output, self._asked, self._named = output, None, None
+        self.output, self._asked, self._named, self._enables = output, None, None, 0

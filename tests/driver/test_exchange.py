@@ -92,6 +92,16 @@ def test_answers_that_a_noisy_line_has_lost_are_not_late() -> None:
         assert not exchange.late
 
 
+@pytest.mark.parametrize(
+    ("asked", "answers", "deaf"), [(30, {}, False), (31, {}, True), (51, {20: 5}, True), (50, {20: 5}, False)]
+)
+def test_a_board_that_answers_nothing_for_half_a_second_is_deaf(
+    asked: int, answers: dict[int, int], deaf: bool
+) -> None:
+    """Beyond the 0.1 s that an answer may take."""
+    assert exchange_after(asked, answers).deaf is deaf
+
+
 def test_what_was_lost_before_two_that_come_late_does_not_count_with_them() -> None:
     exchange = exchange_after(10, {9: 120, 10: 121})
     exchange.look(10 * PING_EVERY + 122_000_000)

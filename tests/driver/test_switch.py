@@ -8,7 +8,7 @@ from board_frames import TELEMETRY, enabled
 
 from motor_driver.frames.codes import Flag
 from motor_driver.frames.from_host import Enable
-from motor_driver.switch import ASK_EVERY, Output, Switch, reason_off
+from motor_driver.switch import ASK_EVERY, ASKED, Output, Switch, reason_off
 
 
 def turned_on() -> Switch:
@@ -32,6 +32,23 @@ def test_it_asks_again_until_it_is_answered() -> None:
     switch = Switch()
     asked = [switch.asks(True, TELEMETRY, now) is not None for now in (0, ASK_EVERY - 1, ASK_EVERY, 2 * ASK_EVERY)]
     assert asked == [True, False, True, True]
+
+
+@pytest.mark.parametrize(
+    ("asked", "after", "unheard"), [(ASKED, 201, True), (ASKED - 1, 201, False), (ASKED, 200, False)]
+)
+def test_a_board_that_does_not_switch_on_however_often_it_is_asked_hears_nothing(
+    asked: int, after: int, unheard: bool
+) -> None:
+    """A driver that stood still has asked less often, and what was answered meanwhile is still to be read."""
+    switch, ms = Switch(), 1_000_000
+    for k in range(asked):
+        assert switch.asks(True, TELEMETRY, 1000 * ms + k * ASK_EVERY) is not None
+    assert switch.unheard((1000 + after) * ms, 200.0 * ms) is unheard
+    switch.hear(enabled())
+    assert not switch.unheard(10_000 * ms, 200.0 * ms)
+    switch.asks(False, TELEMETRY, 10_000 * ms)
+    assert not switch.unheard(20_000 * ms, 200.0 * ms)
 
 
 def test_before_any_telemetry_only_off_can_be_asked_for() -> None:

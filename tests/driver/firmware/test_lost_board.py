@@ -13,6 +13,7 @@ from tiers import mark_slow
 from motor_board.emulation.chip import Hang
 from motor_board.emulation.faults import Faults
 from motor_board.emulation.serial_line import SerialLine
+from motor_driver.config import Config
 
 MOST = 150.0  # [ms] to 0 V at the pins, whatever has died
 
@@ -94,6 +95,36 @@ def test_a_reset_board_stays_off_until_enabled(running: Rig, hang: Hang | None) 
     assert running.enable() == ""
     running.until(lambda: running.pins == 6.0, 30)
     assert problem(running) == ""
+
+
+@pytest.mark.parametrize(("rate", "most"), [(200.0, 0.25), (10.0, 0.55)])
+def test_a_board_that_hears_nothing_is_not_switched_on_and_does_not_start_when_the_wire_is_back(
+    make_rig: MakeRig, rate: float, most: float
+) -> None:
+    """Telemetry goes on: an enable was answered "The output is on", and 20 s later the motor started by itself."""
+    rig = make_rig(config=Config(sample_rate=rate))
+    rig.run(20)
+    rig.plug()
+    rig.voltage = 6.0
+    rig.until(lambda: rig.pins == 6.0, 1500)
+    send = rig._in.send
+    rig._in.send = lambda data, faults, now: send(b"", faults, now)  # type: ignore[method-assign]
+    rig.until(lambda: len(rig.stops) == 1, 400)
+    assert rig.stops == ["the board heard no command for too long and switched off"]
+    assert rig.enable() == ""  # nobody knows yet
+    rig.run(1e3 * most)
+    hears_nothing = "the board on the port says what it measures and does nothing that it is told"
+    assert len(rig.stops) == 2 and rig.stops[1].startswith(hears_nothing) and not rig.gate.enabled
+    rig.run(500)
+    assert rig.enable().startswith(f"No voltage acts: {hears_nothing}")
+    assert problem(rig).startswith(f"T{hears_nothing[1:]}")
+    rig._in.send = send  # type: ignore[method-assign]
+    rig.run(500)
+    assert rig.pins == 0.0 and len(rig.stops) == 2
+    assert rig.enable() == ""
+    rig.until(lambda: rig.pins == 6.0, 300)
+    rig.run(500)
+    assert rig.stops[2:] == [] and rig.gate.enabled
 
 
 @pytest.mark.parametrize(("delay", "stops"), [(40, False), (60, True), mark_slow(1000, True)])
