@@ -11,6 +11,9 @@ from motor_driver.switch import Switch
 
 REPEAT = 10_000_000  # [ns] after which an unchanged command is sent again
 NUMBERS = 1 << 16  # of frames, which wrap
+# Samples, and [ns], for which a board that was switched on may name a command that is not ours: until 1.4.3 an enable
+# did not count as one, and what a driver before had sent was the latest until the first command of ours had come.
+STRANGE, STRANGE_TIME = 3, 50_000_000
 
 
 @dataclass
@@ -30,6 +33,8 @@ class Session:
     greeted: bool = False
     count: int = 0  # frames sent since it runs
     obeyed: int | None = None  # number of the newest command that it had, while the output is on
+    strange: int = 0  # samples since the output is on that name another's command, and none of ours
+    strange_since: int = 0  # [ns] when the first of those was read
 
     @property
     def runs(self) -> bool:
@@ -65,10 +70,19 @@ class Session:
         """Tell whether the board has obeyed a command that is not ours, or an old one again: a line keeps the order."""
         before, self.obeyed = self.obeyed, None
         if not (frame.enabled and self.switch.listening):
+            self.strange = 0
             return False
         ours = (self.encoder.seq - 1 - frame.command) % NUMBERS < min(self.count, NUMBERS // 2)
         self.obeyed = frame.command if ours else before
-        return before is not None and not (ours and (frame.command - before) % NUMBERS < NUMBERS // 2)
+        if before is None:
+            return self._is_strange(ours)
+        return not (ours and (frame.command - before) % NUMBERS < NUMBERS // 2)
+
+    def _is_strange(self, ours: bool) -> bool:
+        """Tell whether the board has obeyed another's commands alone ever since it was switched on, for too long."""
+        self.strange_since = self.strange_since if self.strange else self.heard
+        self.strange = 0 if ours else self.strange + 1
+        return self.strange >= STRANGE and self.heard - self.strange_since >= STRANGE_TIME
 
     def _command(self, duty: int, now: int) -> Command | None:
         """Say a new duty at once, and go on saying it: the board stops without."""

@@ -87,3 +87,27 @@ def test_what_a_board_had_heard_of_a_driver_before_is_nothing_to_stop_for() -> N
     assert not any(session.hear_another(replace(enabled(), command=command)) for command in (5000, 5000, 2, 2))
     off = replace(enabled(), flags=0, command=5000)
     assert not session.hear_another(off) and not session.hear_another(replace(enabled(), command=1))
+
+
+@pytest.mark.parametrize(("period", "stopped"), [(5, 50), (1, 50), (20, 60), (100, 200)])
+def test_a_board_that_obeys_another_alone_from_the_enable_on_is_noticed(period: int, stopped: int) -> None:
+    """Somebody else's numbers are ahead of ours, and the board takes ours for old ones; times in ms."""
+    session = running()
+    session.due(0, True, 100)
+    noticed = []
+    for at in range(0, 400, period):
+        session.heard = at * 1_000_000
+        if session.hear_another(replace(enabled(), command=500 + at)):
+            noticed.append(at)
+    assert noticed[0] == stopped
+    session.heard += 1_000_000
+    assert not session.hear_another(replace(enabled(), command=2))  # ours again
+    assert session.hear_another(replace(enabled(), command=900))
+
+
+def test_what_a_driver_was_held_up_with_is_no_other_s_command() -> None:
+    session = running()
+    session.due(0, True, 100)
+    assert not session.hear_another(replace(enabled(), command=500))
+    session.heard = 300_000_000
+    assert [session.hear_another(replace(enabled(), command=command)) for command in (500, 1, 2)] == [False] * 3

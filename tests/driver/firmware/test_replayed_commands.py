@@ -5,6 +5,9 @@ from collections.abc import Callable
 from driver_rig import Rig
 from emulated_board import MS
 
+from motor_driver.frames.from_host import Command
+from motor_driver.protocol import Encoder
+
 MOST = 150.0  # [ms]
 
 
@@ -52,6 +55,26 @@ def test_commands_that_come_again_keep_no_dead_driver_s_motor_running(running: R
     running.alive = False
     pins = pins_under(running, bursts)
     assert pins.index(0.0) < MOST and set(pins[pins.index(0.0) :]) == {0.0}
+
+
+def test_another_s_commands_that_are_there_from_the_enable_on_stop_the_motor(running: Rig) -> None:
+    """Frames of a second driver with numbers ahead of the first one's: 6 V for ever, while 0 V was asked for."""
+    running.voltage = 0.0
+    running.until(lambda: running.pins == 0.0, 30)
+    running.gate = running.gate.enable(False)
+    running.run(50)
+    session = running.driver.session
+    assert session is not None
+    foreign, running.gate = Encoder(), running.gate.enable(True)
+    foreign._next = (session.encoder.seq + 500) % 65536
+    pins = []
+    for k in range(400):
+        if k % 2 == 0:
+            running._in.send(foreign.send(Command(128)), running.faults, running.now)
+        running.run(1)
+        pins.append(running.pins)
+    assert len(running.stops) == 1 and "obeyed a command that this driver had not sent" in running.stops[0]
+    assert sum(volts != 0.0 for volts in pins) < 75 and set(pins[100:]) == {0.0}
 
 
 def test_a_whole_session_that_comes_again_after_a_power_down_drives_nothing(make_rig: Callable[..., Rig]) -> None:
