@@ -22,7 +22,7 @@ def test_says_hello_by_itself_at_power_up(bench: Bench, chip: str) -> None:
     bench.run(4)
     hello = bench.last(Hello)
     kind = Board[chip.upper()]
-    assert hello == Hello(1, 4, 5, kind, 0, 0, 1, 500, 256, 0, 10_000, 2_000, 100, ResetCause.POWER_ON, hello.boot, 0)
+    assert hello == Hello(1, 4, 6, kind, 0, 0, 1, 500, 256, 0, 10_000, 2_000, 100, ResetCause.POWER_ON, hello.boot, 0)
     assert bench.events[0].seq == 0 and bench.chip.pins.share == 0.0
 
 
@@ -92,7 +92,10 @@ def test_every_duty_in_both_decays_on_both_bridges(make_bench: MakeBench, bridge
     pins = bench.chip.pins
     assert pins.share == limited / 256 and bench.last(Telemetry).duty == limited
     pulsed_enable = (bridge, decay) in {("l298n", 1), ("tb6612", 0)}
-    if pulsed_enable:
+    rest = 256 if bridge == "tb6612" else 0  # both inputs high is its short brake, as PWM low is
+    if pulsed_enable and limited == 0:
+        assert (pins.enable, pins.forward, pins.reverse) == (0, rest, rest)
+    elif pulsed_enable:
         assert pins.enable == abs(limited) and {pins.forward, pins.reverse} == {0, 256}
     else:
         assert (pins.enable, pins.forward, pins.reverse) == (256, max(limited, 0), max(-limited, 0))

@@ -132,4 +132,4 @@ def test_header_stamps_follow_a_crystal_that_is_off(make_rig: MakeRig) -> None:
 
 
 def test_what_has_begun_to_run_is_said(running: Rig) -> None:
-    assert status.connection(running.driver) == "Connected to the port: firmware 1.4.5, 96 edges per revolution, 12 V."
+    assert status.connection(running.driver) == "Connected to the port: firmware 1.4.6, 96 edges per revolution, 12 V."

@@ -6,7 +6,7 @@
 
 #define FIRMWARE_MAJOR 1
 #define FIRMWARE_MINOR 4
-#define FIRMWARE_PATCH 5
+#define FIRMWARE_PATCH 6
 
 /* 256 over the golden ratio: rounds of starts begin with latches that are far apart for long, so that a session which is
  * sent again without some of its ways off does not meet the one of another round. */
