@@ -141,7 +141,8 @@ def describe_disturbance(diagnosis: Diagnosis) -> str:
         strong = LARGE.format(100.0 * found.rms_voltage / largest, largest, _describe_stop(diagnosis.after, largest))
     if not strong and tosses(found, diagnosis.after.recordings):
         strong = TOSSED.format(100.0 * found.rms_voltage / largest)
-    return torque + strong + _describe_breakaway(diagnosis.findings, found)
+    lasts = found.correlation_time >= row  # else it is rather the sensor's noise, which holds no motor
+    return torque + strong + (_describe_breakaway(diagnosis.findings, found) if lasts else "")
 
 
 def _describe_stop(held: HeldOut, largest: float) -> str:

@@ -183,6 +183,19 @@ def test_a_breakaway_beside_a_random_torque_may_be_larger(
     assert "breaks away" not in summarize_diagnosis(replace(one, findings=(held,), disturbance=None))
 
 
+@pytest.mark.parametrize(("rows", "said"), [(1.01, True), (0.99, False)])
+def test_a_torque_that_lasts_for_less_than_a_row_holds_no_motor_at_its_peaks(
+    variants: dict[Verdict, Diagnosis], rows: float, said: bool
+) -> None:
+    """Beside a breakaway of 1.207 ± 0.021 V, of 1.2 V, which noise of 0.214 V over 3 ms made "larger by 0.64 V"."""
+    one = variants[Verdict.EXPLAINED]
+    row = min(recording.sample_period for recording in one.after.recordings)
+    held = replace(one.findings[0], effect="static_friction", parameters={"breakaway_voltage": (1.207, 0.021)})
+    torque = Disturbance(0.214, 0.043, rows * row, 0.1 * row)
+    text = summarize_diagnosis(replace(one, findings=(held,), disturbance=torque))
+    assert ("breakaway_voltage may be larger by 0.64 V or so" in text) is said
+
+
 @pytest.mark.parametrize("source", ["import", "hardware"])
 @pytest.mark.parametrize(
     ("effect", "rivals", "of_supply"),
