@@ -144,7 +144,7 @@ def _list_rivals(tests: Sequence[CandidateTest], effect: str, current: Model) ->
     alike = [
         test.effect
         for test in tests
-        if find_loss(test, current) < thresholds.RIVAL_MARGIN
+        if find_loss(test, current, effect) < thresholds.RIVAL_MARGIN
         or are_alike(test.model, current)
         or does_nearly_as_well(test, effect, current, current.likelihood - test.before.likelihood)
     ]

@@ -11,6 +11,7 @@ from stub_models import rescored, stub_model, stub_test
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model, Score
 from motor_identification.diagnosis.candidate_test import CandidateTest
+from motor_identification.diagnosis.evidence import replacement as module
 from motor_identification.diagnosis.evidence.replacement import choose_better, find_loss, is_better
 from motor_identification.recording import Floats
 
@@ -72,3 +73,30 @@ def test_a_few_moments_count_where_what_replaces_predicts_worse(times: float, fe
     current = model(1.0, 100.0, moments)
     test = CandidateTest("load_bias", current, model(times * thresholds.WORSE_GAP, 0.0, np.zeros(60)))
     assert find_loss(test, current) == (0.0 if few else 100.0)
+
+
+@pytest.mark.parametrize(
+    ("effect", "held", "loss"),
+    [
+        ("static_friction", True, 60.0),  # but for the best of the three in which it speaks
+        ("static_friction", False, 0.0),  # the motor never stood under a voltage
+        ("quadratic_drag", True, 0.0),
+        ("", True, 0.0),
+    ],
+)
+def test_what_holds_a_motor_speaks_in_few_moments(
+    monkeypatch: pytest.MonkeyPatch, effect: str, held: bool, loss: float
+) -> None:
+    """A breakaway beside a coasting bridge, likelier by 82 in six of 120 moments, gave way to a load of 3 mV."""
+    moments = np.zeros(60)
+    moments[[7, 20, 41]] = 30.0
+
+    def model(likelihood: float, moments: Floats) -> Model:
+        score = Score(likelihood, moments=moments)
+        one = SimpleNamespace(likelihood=likelihood, held=SimpleNamespace(gap=1.0), score=score, beside_torque=True)
+        return cast(Model, one)
+
+    current = model(90.0, moments)
+    monkeypatch.setattr(module, "was_held", lambda one: held and one is current)
+    test = CandidateTest("load_bias", current, model(0.0, np.zeros(60)))
+    assert find_loss(test, current, effect) == loss
