@@ -12,6 +12,7 @@ from motor_identification.diagnosis.selection.forward_selection import select_fo
 from motor_identification.diagnosis.selection.restarts import (
     begin_from_kindred,
     retry_with_another_first,
+    retry_with_dependent,
     retry_with_pair,
 )
 from motor_identification.diagnosis.selection.rivals import check_beside_torque
@@ -76,6 +77,7 @@ def select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tup
     """
     first = select_forward(start, reporter)
     plain = retry_with_pair(retry_with_another_first(first, reporter), reporter)
+    plain = retry_with_dependent(plain, reporter)
     selected = _select_from(start, start, first, plain, reporter)
     if selected[1] or not _leaves_structure(selected[0]):
         return selected

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from stub_models import LASTING_FLOOR, StubModel, rescored, stub_model, stub_test
+from stub_models import LASTING_FLOOR, StubModel, rescored, stub_model, stub_test, with_effects
 from stub_selections import selection_of, step_of
 
 from motor_identification.diagnosis import thresholds
@@ -15,6 +15,7 @@ from motor_identification.diagnosis.selection.restarts import (
     begin_from_kindred,
     list_other_firsts,
     retry_with_another_first,
+    retry_with_dependent,
     retry_with_pair,
 )
 from motor_identification.diagnosis.selection.selection import SelectionStep
@@ -248,3 +249,41 @@ def test_no_two_are_tried_instead_of_an_instant_that_something_was_found_beside(
     monkeypatch.setattr(module, "try_effects", lambda *rest: [])
     monkeypatch.setattr(module, "find_pair", lambda *rest: asked.append(rest) or [])
     assert retry_with_pair(begun, SILENT) is begun and bool(asked) is tried
+
+
+@pytest.mark.parametrize(
+    ("found", "gain", "gap", "end", "tried", "taken"),
+    [
+        ("dead_zone", ABOVE, 4.0, 4.5, True, True),
+        ("dead_zone", BELOW, 4.0, 4.5, True, False),  # no likelier than what was found in its place
+        ("dead_zone", ABOVE, 4.0, 5.5, True, False),  # what comes of it leaves more
+        ("dead_zone", ABOVE, 9.0, 4.5, True, False),  # no finding
+        ("coulomb_friction", ABOVE, 4.0, 4.5, False, False),  # beside which it was tried already
+        ("load_bias", ABOVE, 4.0, 4.5, False, False),  # which no friction is kindred to
+    ],
+)
+def test_what_comes_with_a_kindred_effect_alone_is_tried_beside_that(
+    monkeypatch: pytest.MonkeyPatch, found: str, gain: float, gap: float, end: float, tried: bool, taken: bool
+) -> None:
+    """A dead zone stood before the friction that a motor breaks away with, and a drag that was not there beside it."""
+    before, least = stub_model(9.0), likelihood_threshold()
+    first = stub_test(found, before, 5.0, 100.0)
+    friction = stub_test("coulomb_friction", before, 5.0, 95.0)
+    friction = replace(friction, model=with_effects(friction.model, "coulomb_friction"))
+    friction = first if found == "coulomb_friction" else friction
+    current = rescored(with_effects(stub_model(5.0), found), likelihood=110.0)
+    begun = replace(selection_of(current, step_of(first, friction)), model=current)
+    again = selection_of(friction.model, step_of(friction))
+    asked: list[list[str]] = []
+
+    def try_effects(model: Any, hold_out: Any, effects: list[str], *rest: Any) -> list[CandidateTest]:
+        asked.append(effects)
+        return [stub_test(effect, model, gap, 110.0 + gain * least - model.likelihood) for effect in effects]
+
+    other = selection_of(rescored(stub_model(end), likelihood=110.0 + 2.0 * least))
+    monkeypatch.setattr(module, "list_candidates", lambda effects, *_: ["static_friction", "quadratic_drag"])
+    monkeypatch.setattr(module, "begin_selection", lambda *rest: again)
+    monkeypatch.setattr(module, "try_effects", try_effects)
+    monkeypatch.setattr(module, "select_forward", lambda *rest, **how: other)
+    assert retry_with_dependent(begun, SILENT) is (other if taken else begun)
+    assert asked == ([["static_friction"]] if tried else [])
