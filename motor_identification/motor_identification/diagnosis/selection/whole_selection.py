@@ -17,6 +17,7 @@ from motor_identification.diagnosis.selection.restarts import (
 )
 from motor_identification.diagnosis.selection.rivals import check_beside_torque
 from motor_identification.diagnosis.selection.selection import Selection
+from motor_identification.diagnosis.selection.shared_sizes import doubt_shared_sizes
 from motor_identification.diagnosis.selection.stand_ins import (
     doubt_instants,
     drop_stand_ins,
@@ -124,7 +125,7 @@ def _conclude(
     else:
         selection = beside
     left, undetermined = drop_undetermined(selection, reporter)
-    left = doubt_instants(left)
+    left = doubt_shared_sizes(doubt_instants(left))
     if selection is beside:
         undetermined = undetermined or list_hidden_by_torque(plain, beside)
     if untold := set(find_untold(left.model)) - set(start.model.effects):
