@@ -25,7 +25,7 @@ from motor_identification.recording import Recording, check
 from motor_identification.reporting.curves import make_fit_curves
 from motor_identification.reporting.model_comparison import Identified
 from motor_identification.timing import speed_timing
-from motor_identification.timing.shaped_fit import Shaper
+from motor_identification.timing.shaped_fit import Shaper, measure_gain
 from motor_identification.timing.speed_filter import MEMORY, SpeedFilter
 from motor_identification.timing.speed_timing import TOO_EARLY, _find_instants, _is_likelier, find_timing
 from motor_identification.timing.timing import ASSUMED, INSTANT, OTHERS, UNTIL, Timing, list_readings
@@ -234,6 +234,16 @@ def test_another_timing_is_not_likelier_by_no_numbers() -> None:
     flat, zero, none = (np.full(100, value) for value in (1.0, 0.0, np.nan))
     assert not _is_likelier(none, flat) and not _is_likelier(flat, none) and not _is_likelier(zero, zero)
     assert not _is_likelier(flat, zero) and not _is_likelier(flat, flat)
+
+
+@pytest.mark.parametrize(("rows", "likelier"), [(0, True), (5, False)])
+def test_a_few_rows_do_not_decide(rows: int, likelier: bool) -> None:
+    """Five of 2,000 sizes of means, of rows in which a motor turned over, made them instants, and an inductance up."""
+    white = np.random.default_rng(0).standard_normal(2000)
+    other = 0.95 * white if rows else 1.1 * white
+    other[:rows] = 30.0
+    assert measure_gain(other, white) > 150.0
+    assert _is_likelier(white, other) is likelier
 
 
 def test_a_timing_is_judged_by_what_a_fit_may_see() -> None:
