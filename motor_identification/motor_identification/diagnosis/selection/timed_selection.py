@@ -14,7 +14,7 @@ from motor_identification.progress import ProgressReporter, Stopped, TimeLimit
 from motor_identification.timing.timing import ASSUMED, Timing
 from motor_model.effects import EFFECT_BY_NAME, LAGGING, LAGS
 
-DELAY = "transport_delay"
+(DEAD_TIME,) = set(LAGS).difference(LAGGING)
 AGE_MARGIN = 0.1  # rows: by how much a dead time may differ from the age of means
 DONE_ONCE = 0.95  # of the progress, where a selection is made again
 
@@ -91,9 +91,9 @@ def _select_as_means(
     """
     timing = start.timing
     instants = timing is not None and timing.lag == 0.0 and timing.slot == 0.0 and timing.filter is None
-    if timing is None or not instants or DELAY not in selected.effects:
+    if timing is None or not instants or DEAD_TIME not in selected.effects:
         return None
-    seconds = selected.selection.model.estimate.parameters.value(EFFECT_BY_NAME[DELAY].parameters[0].name)
+    seconds = selected.selection.model.estimate.parameters.value(EFFECT_BY_NAME[DEAD_TIME].parameters[0].name)
     row = min(recording.info.sample_period for recording in start.recordings)
     if abs(seconds - ASSUMED.lag * row) > AGE_MARGIN * row:
         return None
