@@ -82,6 +82,8 @@ class CandidateTest:
         Unless much of the gap goes, and so not in a few moments. An instant is one of many, and chosen. What comes
         slowly in motion that the fit has seen is what a slow torque does, too, and has to be as likely.
         """
+        if self.is_of_torque:
+            return False
         if self.before.held.seen and needs_instant(self.effect):
             least = max(least, thresholds.INSTANT_LIKELIHOOD)
         if self.model.beside_torque and (needs_instant(self.effect) or self._comes_slowly_as_seen):
@@ -89,6 +91,21 @@ class CandidateTest:
             grows = self._comes_slowly_as_seen and self.model.held.gap > self.held_before.gap
             return self.evidence > least and self.steadiness > likelihood_threshold() and not grows
         return self.evidence > least and (not self.model.beside_torque or self.steadiness > least or self.predicts)
+
+    @property
+    def is_of_torque(self) -> bool:
+        """Whether a motor breaks away at no more above its sliding friction than a random torque adds, or takes.
+
+        A motor that stands starts when voltage and torque together are beyond its friction, later or sooner than without
+        the torque. One that lasts for less than a row is rather the sensor's noise.
+        """
+        spec = EFFECT_BY_NAME[self.effect].parameters[0]
+        if spec.at_least is None or not self.model.beside_torque:
+            return False
+        errors, estimate = self.model.errors, self.model.estimate
+        value = estimate.parameters.value
+        scatter = errors.rms_voltage if errors.correlation_time >= estimate.problem.sample_period else 0.0
+        return value(spec.name) - value(spec.at_least) < thresholds.BREAKAWAY_SIGMA * scatter
 
     @property
     def is_held_back(self) -> bool:
