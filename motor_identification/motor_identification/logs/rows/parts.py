@@ -147,7 +147,7 @@ def drop_first_rows(signals: Signals) -> tuple[Signals, list[str]]:
     limit = LATE * _period(signals)
     for run in signals.runs.values():
         late = run.stop - run.start > 2 and signals.time[run.start + 1] - signals.time[run.start] > limit
-        keep[run.start] = not late or counts_on(signals.motion[run])
+        keep[run.start] = not late or counts_on(signals.motion[run]) or counts_on(-signals.motion[run])
     dropped = int((~keep).sum())
     if not dropped:
         return signals, []
