@@ -22,6 +22,7 @@ OF_EDGES = words_of("edge edges pulse pulses tick ticks encoder enc hall speed m
 EDGES = words_of("edge edges pulse pulses encoder enc hall capture")  # of no program's own loop
 OF_ROWS = words_of("sample sampling loop cycle row control pwm")  # whose periods are no motion
 AS_ROWS, MOSTLY = 0.02, 0.8  # relative: periods that are so near to the times from row to row, in most rows, are those
+EVERY = 0.99  # of the rows: then each is an edge
 
 
 def read_edge_periods(table: Table, said: Said) -> tuple[Table, Said]:
@@ -44,8 +45,11 @@ def read_edge_periods(table: Table, said: Said) -> tuple[Table, Said]:
         return table, said
     if not np.ptp(period) > 0.0 or not _has_clock(headings, said):
         return table, said
-    if not _is_said(heading, said) and _are_steps(table, headings, period * _seconds(heading), said):
+    as_rows = _share_of_rows(table, headings, np.abs(period) * _seconds(heading), said)
+    if as_rows > MOSTLY and not _is_said(heading, said):
         return table, said
+    if as_rows > EVERY:
+        return _count_rows(table, headings, heading, said, period)
     speed = np.divide(1.0, period * _seconds(heading), out=np.zeros(len(period)), where=period != 0.0)
     speed, signs = (speed, "") if np.any(period < 0.0) else _give_signs(table, headings, speed)
     name = f"1 / {heading.name} (count/s)"
@@ -56,6 +60,22 @@ def read_edge_periods(table: Table, said: Said) -> tuple[Table, Said]:
     )
     made = replace(table, cells={**cells, name: speed}, notes=(*table.notes, note))
     return made, replace(said, motion=name if said.motion else None)
+
+
+def _count_rows(
+    table: Table, headings: list[Heading], heading: Heading, said: Said, period: Floats
+) -> tuple[Table, Said]:
+    """Count the edges of a log of one a row, whose times say when each came: exact, which 1 / period is of no mean."""
+    ones = np.ones(len(period))
+    ways, signs = (np.sign(period), "") if np.any(period < 0.0) else _give_signs(table, headings, ones)
+    name = "edges of rows (count)"
+    cells = {other: cell for other, cell in table.cells.items() if other != heading.name}
+    note = (
+        f"{heading.name} is the time from row to row, and that between two edges: a row is an edge, and they are "
+        f"counted{signs} (assumed; otherwise say which column the motion is)."
+    )
+    counted = replace(table, cells={**cells, name: np.cumsum(ways) - ways[0]}, notes=(*table.notes, note))
+    return counted, replace(said, motion=name, kind=None) if said.motion else said
 
 
 def is_edge_period(heading: Heading) -> bool:
@@ -95,19 +115,19 @@ def _has_clock(headings: list[Heading], said: Said) -> bool:
     return said.sample_period is not None or len(_clocks(headings, said)) == 1
 
 
-def _are_steps(table: Table, headings: list[Heading], period: Floats, said: Said) -> bool:
-    """Whether periods [s] of shape (K,) are those from row to row."""
+def _share_of_rows(table: Table, headings: list[Heading], period: Floats, said: Said) -> float:
+    """Give the share of periods [s], shape (K,), that are the times from row to row."""
     if said.sample_period is not None:
-        return False
+        return 0.0
     (clock,) = _clocks(headings, said)
     try:
         time = table.numbers(clock.name)
     except RecordingError:  # times of day
-        return False
+        return 0.0
     unit = clock.unit if clock.unit in TIME_UNITS else guess_time_unit(time)[0]
     steps = np.diff(time) * TIME_UNITS[unit] * 1e-9
     rows = (period[1:], period[:-1])  # of the row before, or of its own
-    return any(float(np.mean(np.abs(one - steps) <= AS_ROWS * steps)) > MOSTLY for one in rows)
+    return max(float(np.mean(np.abs(one - steps) <= AS_ROWS * steps)) for one in rows)
 
 
 def _give_signs(table: Table, headings: list[Heading], speed: Floats) -> tuple[Floats, str]:

@@ -15,6 +15,7 @@ SPEED = 40.0 + 20.0 * np.convolve(np.abs(DRIVE), np.exp(-np.arange(60) / 8.0) / 
 PERIOD = np.rint(1e6 / SPEED)  # [us]
 WAY = (DRIVE > 0.0).astype(float)
 MADE = "1 / period_us (count/s)"
+COUNTED = "edges of rows (count)"
 UNSAID = Said()
 
 
@@ -128,15 +129,39 @@ def test_times_from_row_to_row_are_no_motion(share: float, is_speed: bool) -> No
 def test_of_a_row_an_edge_the_times_between_rows_are_those_between_edges(
     name: str, said: Said, is_speed: bool, before: bool
 ) -> None:
-    """Where a name or the user says that they are: 1 / period, and the same number of edges as of even rows."""
+    """Where a name or the user says that they are: each row is an edge, and they are counted."""
     period = 1e-6 * np.rint(1e6 / SPEED)
     time = np.cumsum(np.append(0.0, period[1:]))
     logged = np.append(period[1:], period[-1]) if before else period
-    table, _ = read_edge_periods(columns(t_s=time, u=np.abs(DRIVE), **{name: np.rint(1e6 * logged)}), said)
-    made = f"1 / {name} (count/s)"
-    assert (made in table.names) is is_speed
+    table, read_as = read_edge_periods(columns(t_s=time, u=np.abs(DRIVE), **{name: np.rint(1e6 * logged)}), said)
+    assert (COUNTED in table.names) is is_speed
     if is_speed:
-        np.testing.assert_allclose(table.numbers(made), 1.0 / logged, rtol=1e-9)
+        assert np.array_equal(table.numbers(COUNTED), np.arange(200)) and read_heading(COUNTED).unit == "count"
+        assert read_as.motion == (COUNTED if said.motion else None) and read_as.kind is None
+
+
+@pytest.mark.parametrize(("share", "is_count"), [(0.995, True), (0.98, False)])
+def test_edges_are_counted_where_nearly_every_row_is_one(share: float, is_count: bool) -> None:
+    """Else 1 / period is the speed, of which a row may have several."""
+    period = 1e-6 * np.rint(1e6 / SPEED)
+    time = np.cumsum(np.append(0.0, period[1:]))
+    logged = np.where(np.arange(200) >= share * 200, 2.0, 1.0) * period
+    table, _ = read_edge_periods(columns(t_s=time, u=np.abs(DRIVE), edge_period_us=np.rint(1e6 * logged)), Said())
+    assert (COUNTED in table.names) is is_count and ("1 / edge_period_us (count/s)" in table.names) is not is_count
+
+
+@pytest.mark.parametrize("own", [False, True])
+def test_counted_edges_have_the_sign_of_a_direction_or_of_their_times(own: bool) -> None:
+    period = 1e-6 * np.rint(1e6 / SPEED)
+    time, signs = np.cumsum(np.append(0.0, period[1:])), np.where(DRIVE > 0.0, 1.0, -1.0)
+    cells = {"t_s": time.astype(str), "u": DRIVE.astype(str)}
+    if own:
+        table, _ = read_edge_periods(columns(**cells, edge_period_us=(signs * 1e6 * period).astype(str)), Said())
+    else:
+        turned = {"edge_period_us": (1e6 * period).astype(str), "dir": WAY.astype(int).astype(str)}
+        table, _ = read_edge_periods(columns(**cells, **turned), Said())
+    np.testing.assert_array_equal(np.diff(table.numbers(COUNTED)), signs[1:])
+    assert ("with the sign of dir" in table.notes[-1]) is not own
 
 
 def test_without_another_clock_nothing_says_when_the_rows_were_whoever_names_the_times() -> None:
