@@ -143,7 +143,8 @@ def _ask_about(
         size = "" if said.edges_per_revolution else " and --edges-per-revolution N"
         counts = f", or --count {column}{size} where they are the counts of each row" if counted else ""
         speed = f", or one of {', '.join(ASKED[Kind.SPEED])} to read {speed_beside} instead" if speed_beside else ""
-        question = f"in {options}, which the numbers do not tell: say --unit{speed}{counts}"
+        sized = " (count with --edges-per-revolution N)" if size and "count" in unit.candidates else ""
+        question = f"in {options}, which the numbers do not tell: say --unit{sized}{speed}{counts}"
         notes.questions.append((column, question))
     if unit.name in ("count", "count/s") and said.edges_per_revolution is None:
         question = f"in {unit.name}: say how many counts there are in a turn (--edges-per-revolution N)"

@@ -125,6 +125,18 @@ def test_units_of_both_kinds_are_asked_for_where_the_numbers_tell_neither(rows: 
     assert ", or of a slide in mm" in question
 
 
+@pytest.mark.parametrize(("edges", "said"), [(None, True), (360, False)])
+@pytest.mark.parametrize("motion", ["angle", "speed"])
+def test_who_is_asked_for_a_unit_hears_that_counts_need_those_of_a_turn(
+    edges: int | None, said: bool, motion: str
+) -> None:
+    """`--unit count` alone was refused then. Of 360 counts a turn, nothing tells them from degrees."""
+    notes = Notes([], [])
+    form(Said(supply_voltage=12.0, edges_per_revolution=edges), notes, motion)
+    (question,) = [text for _, text in notes.questions]
+    assert ("say --unit (count with --edges-per-revolution N)" in question) is (said and motion == "angle")
+
+
 @pytest.mark.parametrize(("name", "kind"), [("vRot", Kind.SPEED), ("rotated", Kind.POSITION), ("v_pot", Kind.POSITION)])
 def test_a_motion_called_v_is_a_velocity_where_its_numbers_tell_no_kind(name: str, kind: Kind) -> None:
     """A duty without a sign under which a motor runs both ways, in steps of 6,283 a turn, which any gyro may have."""
