@@ -2,10 +2,12 @@
 
 import os
 import subprocess
+import sys
 import xml.etree.ElementTree as Tree
 from pathlib import Path
 
 import pytest
+from domains import free_domain
 
 from motor_ros.loopback import CLOSED, MIDDLEWARE, OPEN, OTHER, PROFILE, RANGE, SKIP, stay_on_this_machine
 
@@ -149,3 +151,55 @@ def transports(path: Path) -> tuple[list[str], list[str], str]:
 def test_the_profile_has_the_loopback_and_shared_memory_only(path: Path) -> None:
     assert transports(path) == (["SHM", "UDPv4"], ["127.0.0.1"], "false")
     assert transports(OPEN) == ([], [], "")
+
+
+@pytest.mark.parametrize("path", [CLOSED, SUPPORT / "quick_announcements.xml"])
+def test_as_many_processes_are_asked_as_the_highest_domain_has_ports_for(path: Path) -> None:
+    """Fast DDS ends a process that would ask beyond 65,535 (119 in domain 232), and asks 32 unless it is told."""
+    (asked,) = Tree.parse(path).iter("{http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles}maxInitialPeersRange")
+    last = int(asked.text or "0") - 1
+    assert last >= 60 and 7_400 + 250 * 232 + 10 + 2 * last <= 65_535
+
+
+CROWD = """
+import sys, rclpy
+kept = []
+for k in range(int(sys.argv[1])):
+    context = rclpy.Context()
+    rclpy.init(context=context)
+    kept.append(rclpy.create_node(f"idle_{k}", context=context))
+print("there", flush=True)
+sys.stdin.read()
+"""
+ALONE = """
+import sys, rclpy
+from std_srvs.srv import SetBool
+rclpy.init()
+node = rclpy.create_node(sys.argv[1])
+if sys.argv[1] == "called":
+    node.create_service(SetBool, "motor/enable", lambda request, response: response)
+    print("there", flush=True)
+    rclpy.spin(node)
+print(node.create_client(SetBool, "motor/enable").wait_for_service(timeout_sec=30.0), flush=True)
+"""
+
+
+def test_who_comes_after_33_others_finds_a_driver_that_came_after_them_too() -> None:
+    """Both had ports at which nobody was asked, and a shell could not stop the motor."""
+    environment = {**os.environ, "ROS_DOMAIN_ID": str(free_domain()), RANGE: "LOCALHOST", PROFILE: str(CLOSED)}
+
+    def run(code: str, *words: str) -> subprocess.Popen[str]:
+        pipe = subprocess.PIPE
+        return subprocess.Popen(
+            [sys.executable, "-c", code, *words], env=environment, stdin=pipe, stdout=pipe, text=True
+        )
+
+    started = []
+    try:
+        for code, words, said in ((CROWD, "33", "there"), (ALONE, "called", "there"), (ALONE, "caller", "True")):
+            started.append(run(code, words))
+            assert started[-1].stdout is not None and started[-1].stdout.readline().strip() == said
+    finally:
+        for one in started:
+            one.kill()
+            one.wait()
