@@ -4,10 +4,11 @@ One channel cannot tell a motor that stands from an encoder that is not connecte
 measured and missing, and edges that end without having come later and later, as those of a shaft that is braked do. Nor
 does it show direction.
 
-A finding is a sentence for people. A stop is one that lasts for `stall_time` at a voltage from STRONG on: then the
-plant switches the motor off by itself, whoever sends the voltage. Simulated and real motor share this. So does any
-voltage where the supply is measured and off, and no edge comes: whoever switches it on again, on most benches by the
-switch that stops the motor, does not expect it to go on by itself.
+A finding is a sentence for people. A stop is one that lasts for `stall_time` at a voltage from STRONG on, or LASTING
+times as long from DRIVEN on (half of the voltage for ever is a quarter of a stall's heat): then the plant switches the
+motor off by itself, whoever sends the voltage. Simulated and real motor share this. So does any voltage where the
+supply is measured and off, and no edge comes: whoever switches it on again, on most benches by the switch that stops
+the motor, does not expect it to go on by itself.
 
 What a voltage that is never strong for long does to a motor that does not turn is in `heating.py`; what two channels
 show of one that turns the wrong way without becoming slower, in `against_voltage.py`; and of one whose other channel
@@ -26,6 +27,7 @@ from motor_model.sensing.to_and_fro import ToAndFro
 DRIVEN = 0.25  # of the motor's voltage: turns any motor that is meant for it
 STRONG = 0.5  # of the motor's voltage: twice what any motor needs to break away, so that no slow ramp comes that far
 STILL_STRONG = 0.8  # of that it may fall to and count on: a loop's voltage trembles with the disc's slots
+LASTING = 16.0  # stall times of driving one way without an edge: a slow ramp is strong before that
 LONG = 500_000_000  # [ns] of driving one way without what should follow
 ALL = 0.93  # of a measured supply, which a driver smooths by as much as 5 %: more there is not, however little it is
 # Of the period before: a motor that is braked to a standstill has a last one of at least 1.3 of it, however hard it is
@@ -123,6 +125,8 @@ class MotionCheck:
             return NO_SUPPLY.format(supply=sample.supply_voltage)
         if excess := self.heating.excess(STRONG, self.stall_time):
             return HEATED.format(voltage=excess[0] * self.max_voltage, time=excess[1])
+        if self.direction != 0 and sample.sample_time - self.still >= LASTING * most:
+            return self._no_edges(sample)
         if strong_since is None:
             return ""
         if not self.single_channel and self.to_and_fro.lasts(sample.sample_time, self.stall_time):

@@ -7,6 +7,7 @@ import pytest
 from motion_samples import checked, sample
 
 from motor_model.sample import Sample
+from motor_model.sensing.motion_check import MotionCheck
 
 SWITCH_ON = "switch it on, and join its ground to the board's"
 
@@ -108,6 +109,29 @@ def test_a_slow_ramp_through_friction_is_no_stop() -> None:
     assert checked(True, *ramp).stop == ""
     assert checked(True, *ramp, *(sample(10.4 + 0.1 * k, k, 1.0, 6.3) for k in range(9))).stop == ""
     assert checked(True, *ramp, *(sample(10.4 + 0.1 * k, 0, 0.0, 6.3) for k in range(9))).stop != ""
+
+
+@pytest.mark.parametrize(
+    ("voltage", "time", "stall_time", "stops"),
+    [
+        (5.9, 6.3, 0.4, False),
+        (5.9, 6.5, 0.4, True),
+        (-3.1, 6.5, 0.4, True),
+        (2.9, 60.0, 0.4, False),  # a quarter: what any motor may need to turn
+        (5.9, 6.5, 0.5, False),
+        (5.9, 60.0, 0.0, False),  # never
+    ],
+)
+def test_a_shaft_that_is_blocked_below_half_of_the_voltage_is_not_driven_for_ever(
+    voltage: float, time: float, stall_time: float, stops: bool
+) -> None:
+    """It was known after 0.5 s, said, and driven on, at up to a quarter of what a stall heats."""
+    check = MotionCheck(12.0, True, stall_time)
+    for k in range(round(time * 20) + 1):
+        check = check.see(sample(0.05 * k, 7, 0.0, voltage))
+    assert bool(check.stop) is stops and bool(check.finding) is (abs(voltage) > 3.0)
+    turned = check.see(sample(time + 0.05, 8, 1.0, voltage))
+    assert not turned.stop
 
 
 @pytest.mark.parametrize(("dip", "stops"), [(4.9, True), (4.7, False)])
