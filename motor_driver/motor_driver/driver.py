@@ -110,8 +110,12 @@ class Driver:
     @property
     def assumed_supply(self) -> float:
         """[V] that full duty is taken for, where the board measures no supply and none was said; 0: it is known."""
-        unknown = self._readout is not None and self._readout.measures_none and not self.config.supply_voltage
-        return self.config.max_voltage if unknown else 0.0
+        return self.config.max_voltage if self.measures_none and not self.config.supply_voltage else 0.0
+
+    @property
+    def measures_none(self) -> bool:
+        """Whether the board that runs is known to measure no supply."""
+        return self._readout is not None and self._readout.measures_none
 
     @property
     def encoder_errors(self) -> int:

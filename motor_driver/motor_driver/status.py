@@ -18,6 +18,13 @@ ASSUMED = (
     "supply's voltage ({0:g} if that is it)."
 )
 
+LOW = 0.5  # of max_voltage: who says less of a supply has most often misplaced a decimal point
+TOO_LOW = (
+    "supply_voltage is {0:g} V, less than half of the {1:g} V of max_voltage, and the board measures no supply: where "
+    "there is more, the motor gets so many times what is asked for. Set supply_voltage to the supply's voltage, or "
+    "max_voltage to {0:g} if that is it."
+)
+
 
 @dataclass(frozen=True, slots=True)
 class Tally:
@@ -71,14 +78,23 @@ def connection(driver: Driver) -> str:
 
 
 def assumption(driver: Driver) -> str:
-    """Say that the supply is only assumed, where max_voltage was set to another value; empty where it is known."""
+    """Say that the supply is only assumed, where max_voltage was set to another value, or is said to be so low that it
+    is hardly meant; empty where it is known.
+    """
+    if too_low := _too_low(driver):
+        return too_low
     assumed = driver.assumed_supply
     return ASSUMED.format(assumed) if assumed not in (0.0, DEFAULT_VOLTAGE) else ""
 
 
 def risk(driver: Driver) -> str:
-    """Return that assumption where max_voltage was lowered: whoever did so to be careful is not."""
+    """Return that assumption where max_voltage was lowered, or the supply: whoever did so to be careful is not."""
     return assumption(driver) if driver.assumed_supply < DEFAULT_VOLTAGE else ""
+
+
+def _too_low(driver: Driver) -> str:
+    told, most = driver.config.supply_voltage, driver.config.max_voltage
+    return TOO_LOW.format(told, most) if driver.measures_none and 0.0 < told < LOW * most else ""
 
 
 def values(driver: Driver, was: Tally, now: int) -> dict[str, str]:

@@ -10,6 +10,7 @@ from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool
 
 from motor_model.gearing.gear import angle_of_count
+from motor_model.printable import escape
 from motor_model.sample import Info, Sample
 from motor_msgs.msg import MotorInfo, MotorSpeed, MotorVoltage
 from motor_ros import qos
@@ -34,6 +35,7 @@ OLD = (
 )
 STAYS = "The output stays off.", "The output is on, and the motor stays at 0 V."  # when a call is refused: off, on
 JUST_NOW = "Just now, {}: look, then call again."
+NAME = 80  # characters of a sender's frame_id that are looked at and said
 UNHEARD = "References are published on {} and nobody hears them: start motor_control in this namespace."
 
 
@@ -74,7 +76,7 @@ class Plant:
             rings=changed,
             hold_ups=self._hold_ups,
             commanders=self._commanders,
-            counts=lambda message, arrival: self.gate.goes_on(message.header.frame_id, arrival.number, arrival.at),
+            counts=lambda message, arrival: self.gate.goes_on(_name_of(message), arrival.number, arrival.at),
         )
         service = node.create_service(SetBool, "motor/enable", self._on_enable)
         self._enabling = Callers(node).guard(service, self._would_switch_on, self._refuse)
@@ -174,7 +176,7 @@ class Plant:
         if self._is_old(message, now):
             self._node.get_logger().error(self._old, throttle_duration_sec=1.0)
             return
-        name, number = message.header.frame_id, arrival.number
+        name, number = _name_of(message), arrival.number
         self.gate = before.take(voltage, arrival.at, name, number, arrival.waited, arrival.sent)
         if self.gate.refused > before.refused:
             said = self.gate.tell_no_number(now, self._input.senders(self._node))
@@ -224,3 +226,8 @@ class Plant:
     def _refuse(self, _: SetBool.Request, response: SetBool.Response, why: str) -> SetBool.Response:
         response.success, response.message = False, f"{STAYS[self.gate.enabled]} {why}"
         return response
+
+
+def _name_of(message: MotorVoltage) -> str:
+    """What a sender calls itself, as it may stand in a log: strangers write it."""
+    return escape(message.header.frame_id[: NAME + 1], NAME)

@@ -112,6 +112,19 @@ def test_who_sets_max_voltage_is_told_that_the_supply_is_only_assumed(
     assert values["voltage at full duty from"] == source
 
 
+@pytest.mark.parametrize(("told", "warned"), [(1.2, True), (5.9, True), (6.0, False), (24.0, False)])
+def test_a_supply_that_is_said_to_be_low_and_not_measured_is_warned_of(
+    make_rig: MakeRig, told: float, warned: bool
+) -> None:
+    """1.2 for 12: 1 V asked for was 10 V at the motor, and nobody said so."""
+    rig = make_rig(config=Config(supply_voltage=told))
+    rig.plug()
+    rig.until(lambda: len(rig.readings) > 0, 1500)
+    said = f"supply_voltage is {told:g} V, less than half of the 12 V of max_voltage, and the board measures no supply"
+    assert status.assumption(rig.driver).startswith(said) is warned
+    assert status.risk(rig.driver) == status.assumption(rig.driver) and bool(status.risk(rig.driver)) is warned
+
+
 def test_a_supply_that_is_measured_is_not_assumed(make_rig: MakeRig) -> None:
     """Nor while it is off, and too low to be taken for one."""
     board = FirmwareConfig(edges_per_revolution=96, channels=2, supply_full_scale=20_000)

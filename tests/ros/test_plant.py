@@ -228,6 +228,24 @@ def test_a_voltage_that_is_not_a_number_is_a_warning_that_names_its_sender(bench
     assert told[-1].status[0].message.startswith(said)
 
 
+def test_a_stranger_s_frame_id_neither_steers_a_terminal_nor_forges_a_line(bench: Bench) -> None:
+    """It was in the log and in /diagnostics as it came."""
+    plant, told = Plant(bench.node, Info(), Gate(True, 0.1)), bench.hear(DiagnosticArray, "/diagnostics")
+    stranger = bench.publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
+    message = MotorVoltage(voltage=nan)
+    message.header.frame_id = "\x1b[2J\n[INFO] all is well" + 100 * "x"
+
+    def says() -> str:
+        stranger.publish(message)
+        assert plant.voltage() == 0.0
+        plant.diagnose("", {})
+        return told[-1].status[0].message if told else ""
+
+    bench.wait(lambda: "is not a number" in says(), "a warning")
+    shown = "\\x1b[2J\\n[INFO] all is well" + 100 * "x"
+    assert f"(frame_id '{shown[:79]}…';" in says() and says().isprintable()
+
+
 def test_a_best_effort_publisher_of_voltages_is_a_warning(bench: Bench) -> None:
     plant, told = Plant(bench.node, Info(), Gate(True, 0.1)), bench.hear(DiagnosticArray, "/diagnostics")
     bench.publisher(MotorVoltage, "motor/voltage", qos_profile_sensor_data)
