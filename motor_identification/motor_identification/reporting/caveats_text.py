@@ -44,6 +44,12 @@ STOOD_SHARE = 0.1  # of the time in which it was driven by a large voltage: less
 MUCH = 0.02  # of the largest voltage: the RMS of a torque that is no trifle
 NEGLIGIBLE = 1e-4  # of the largest voltage: the RMS of a torque that leaves nothing of a gap
 BREAKAWAY, PEAKS = "breakaway_voltage", 3.0  # standard deviations that a torque reaches now and then
+CUT = (
+    "It came to rest wherever the voltage stayed below {:.2g} V or so: firmware or a driver that puts out nothing "
+    "below a least duty does that, too."
+)
+COMES_TO_REST = 3.0  # time constants below the breakaway in which a motor is on its way to rest, and that are seen
+STILL_RUNS = 0.1  # of that time, in which a motor that runs on below its breakaway would turn half as fast as it should
 SUPPLY = (
     "A supply of {:.4g} V is assumed, the most that was applied unless the import said more: of another one "
     "(import_log --max-voltage) "
@@ -114,6 +120,28 @@ def describe_supply(diagnosis: Diagnosis) -> str:
 def describe_likes(diagnosis: Diagnosis) -> str:
     """Say what outside the table does the same as what was found, one sentence an effect; empty where nothing does."""
     return " ".join(said for one in diagnosis.findings if (said := EFFECT_BY_NAME[one.effect].stands_for))
+
+
+def describe_cut(diagnosis: Diagnosis) -> str:
+    """Say that what holds a motor may be a voltage that never came out; empty where it ran on below its breakaway.
+
+    A friction that is smaller in motion lets a motor run on under voltages that it would not break away at.
+    """
+    found = [one.parameters[BREAKAWAY][0] for one in diagnosis.findings if BREAKAWAY in one.parameters]
+    if not found:
+        return ""
+    values, held, breakaway = diagnosis.model.parameters.values, diagnosis.after, found[0]
+    kv, friction = values["kv"], values.get("ks", 0.0)
+    wait = COMES_TO_REST * values["ka"] / kv
+    low = runs = 0.0
+    for recording, data in zip(held.recordings, held.intervals, strict=True):
+        volts, rows = np.abs(recording.voltage), data.find_rows(recording)
+        since = recording.time - np.maximum.accumulate(np.where(volts >= breakaway, recording.time, -np.inf))
+        marks = ((volts > friction) & (volts < breakaway) & (since > wait) & np.isfinite(since))[rows]
+        turns = 2.0 * kv * np.abs(data.speed) > volts[rows] - friction
+        low += float(data.duration[marks].sum())
+        runs += float(data.duration[marks & turns].sum())
+    return CUT.format(breakaway) if low > wait and runs < STILL_RUNS * low else ""
 
 
 def describe_disturbance(diagnosis: Diagnosis) -> str:

@@ -15,6 +15,7 @@ from motor_identification.diagnosis.thresholds import EXPLAINED_GAP, SURE_SIZE
 from motor_identification.discrepancy.missing_torque import describe_torque, estimate_missing_torque
 from motor_identification.discrepancy.region_text import describe_error
 from motor_identification.reporting.caveats_text import (
+    describe_cut,
     describe_disturbance,
     describe_falling,
     describe_few_values,
@@ -76,6 +77,7 @@ def summarize_diagnosis(diagnosis: Diagnosis) -> str:
     told = (
         describe_gains(diagnosis),
         describe_likes(diagnosis),
+        describe_cut(diagnosis),
         describe_supply(diagnosis),
         seen,
         _next_step(diagnosis),

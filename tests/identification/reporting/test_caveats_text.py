@@ -4,14 +4,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from diagnosed import BASE
+from plant import profiles, record
 
 from motor_identification.diagnosis.evidence.command_evidence import Stopped
 from motor_identification.diagnosis.result import Diagnosis, Nearest, Verdict
 from motor_identification.discrepancy.structure import Structure
+from motor_identification.estimation.problem import make_problem
 from motor_identification.measurement.intervals import index_intervals
 from motor_identification.noise.error_model import Disturbance
+from motor_identification.recording import check
 from motor_identification.reporting import caveats_text
-from motor_identification.reporting.caveats_text import MUCH
+from motor_identification.reporting.caveats_text import MUCH, describe_cut
 from motor_identification.reporting.diagnosis_text import summarize_diagnosis
 
 
@@ -194,6 +198,29 @@ def test_a_torque_that_lasts_for_less_than_a_row_holds_no_motor_at_its_peaks(
     torque = Disturbance(0.214, 0.043, rows * row, 0.1 * row)
     text = summarize_diagnosis(replace(one, findings=(held,), disturbance=torque))
     assert ("breakaway_voltage may be larger by 0.64 V or so" in text) is said
+
+
+@pytest.mark.parametrize(
+    ("effect", "least", "levels", "said"),
+    [
+        ("static_friction", 1.5, [4.0, 1.0, 4.0, -1.0, -4.0], True),
+        ("static_friction", 0.0, [4.0, 1.0, 4.0, -1.0, -4.0], False),  # it runs on at 1 V, with its friction of 0.4 V
+        ("static_friction", 1.5, [4.0, 2.0, 4.0, -2.0, -4.0], False),  # no voltage tells
+        ("coulomb_friction", 1.5, [4.0, 1.0, 4.0, -1.0, -4.0], False),
+    ],
+)
+def test_a_breakaway_may_be_a_voltage_that_firmware_does_not_put_out(
+    variants: dict[Verdict, Diagnosis], effect: str, least: float, levels: list[float], said: bool
+) -> None:
+    """Firmware that put out nothing below 1.5 V was named a static friction of 1.03 ± 0.17 V, and nothing else."""
+    one = variants[Verdict.EXPLAINED]
+    time, volts = profiles.pieces(levels, 0.6)
+    motion = record(BASE | {"ks": 0.4}, time, np.where(np.abs(volts) < least, 0.0, volts), seed=1)[0]
+    recording = replace(check(motion), voltage=volts)
+    after = replace(one.after, recordings=(recording,), intervals=make_problem([recording], ()).intervals)
+    parameters = {"breakaway_voltage": (1.4, 0.1)} if effect == "static_friction" else {}
+    found = replace(one.findings[0], effect=effect, parameters=parameters)
+    assert ("below 1.4 V or so: firmware" in describe_cut(replace(one, findings=(found,), after=after))) is said
 
 
 @pytest.mark.parametrize("source", ["import", "hardware"])
