@@ -6,6 +6,9 @@ from numpy.lib.stride_tricks import sliding_window_view
 from motor_identification.recording import Floats
 
 WINDOW = 7  # rows that a parabola is laid through
+# Steps a row, at most, at which sums of counts tell: a row's uneven length is then a small part of one. And so many
+# windows at least, of which the jerkiest are left out.
+SLOW, LEAST_WINDOWS, KEPT = 3.0, 20, 0.8
 
 
 def measure_scatter(time: Floats, motion: Floats) -> Floats:
@@ -20,3 +23,20 @@ def subtract_parabolas(times: Floats, values: Floats) -> Floats:
     scaled = (times - times.mean(axis=1, keepdims=True)) / np.where(span > 0.0, span, 1.0)[:, None]
     basis = np.linalg.qr(scaled[:, :, None] ** np.arange(3))[0]
     return np.asarray(values - np.einsum("wik,wjk,wj->wi", basis, basis, values))
+
+
+def measure_summed(values: Floats, step: float) -> float:
+    """Measure what sums of values (K,), in steps, leave of parabolas while these are few, squared and for each freedom.
+
+    Counts that are summed up are a position to one of them: about a twelfth. Noise that is summed up walks away. 0
+    where too few are slow. Whichever is left: by most windows of a few steps a row, or of all.
+    """
+    if len(values) < WINDOW:
+        return 0.0
+    sums = np.cumsum(values / step)
+    left = measure_scatter(np.arange(len(sums), dtype=np.float64), sums) / (WINDOW - 3)
+    travel = np.abs(sums[WINDOW - 1 :] - sums[: 1 - WINDOW]) / (WINDOW - 1)
+    slow, fast = (np.sort(left[some]) for some in ((travel <= SLOW) & (left > 0.0), travel > SLOW))
+    if min(len(slow), len(fast)) < LEAST_WINDOWS:
+        return 0.0
+    return min(float(np.mean(some[: int(KEPT * len(some))])) for some in (slow, fast))

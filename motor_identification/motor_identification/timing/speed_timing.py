@@ -20,7 +20,7 @@ import numpy as np
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import Problem
 from motor_identification.recording import Floats, Recording
-from motor_identification.sensor.speed_sensor import find_speed_sensor
+from motor_identification.sensor.speed_sensor import find_speed_sensor, is_converted
 from motor_identification.timing.error_likelihood import measure_log_likelihood
 from motor_identification.timing.held_until import held_until
 from motor_identification.timing.pulse_slot import (
@@ -191,11 +191,12 @@ def _find_periods(shaper: Shaper, other: Timing, least: float = -inf) -> Timing 
     """Find that speeds are a slot over the times between edges, likelier by this than by another timing; else None.
 
     Or that they are values of instants, of which a slot that passes often in a row is another word. Not of counts, nor
-    of what is held for even frames.
+    of what is held for even frames; a converter's steps are no times.
     """
     sensors = [find_speed_sensor(recording) for recording in shaper.recordings]
     counted = any(sensor.step > 0.0 or sensor.frame > 0.0 for sensor in sensors)
-    if counted or are_coarse(shaper.recordings) or not _are_open(shaper.recordings):
+    coarse = are_coarse(shaper.recordings) or any(map(is_converted, shaper.recordings))
+    if counted or coarse or not _are_open(shaper.recordings):
         return None
     instants = (OTHERS[0], OTHERS[2]) if other.is_early and not _are_voltages_said(shaper) else (OTHERS[0],)
     found, timing = max(

@@ -22,6 +22,7 @@ from motor_identification.sensor.speed_sensor import (
     find_counts,
     find_noise,
     find_speed_sensor,
+    is_converted,
     lies_between_counts,
 )
 from motor_identification.sensor.value_lattice import are_whole_products
@@ -159,6 +160,31 @@ def test_whole_turns_a_second_are_counts_and_their_tenths_may_be_digits(
     level = 40.0 * np.sin(np.linspace(0.0, 40.0, 1000)) + 1.5 * np.random.default_rng(3).standard_normal(1000)
     found, sigma, edges = find_noise(step * np.rint(level), np.ones(1000), window)
     assert (found > 0.0, edges) == (counts > 0, counts) and (sigma > 0.0) is (counts == 0)
+
+
+@pytest.mark.parametrize(
+    ("noise", "window", "counts"), [(1.3, 0.01, 0), (0.0, 0.01, 447), (1.3, 0.01 * 446.81 / 447.0, 447)]
+)
+def test_a_converters_steps_below_a_sensors_noise_are_no_counts(noise: float, window: float, counts: int) -> None:
+    """A tachogenerator behind ten bits was said to be 447 counts a turn; noise of a disc in whole counts is one."""
+    step, random = 2.4 * 600.0 / 1024.0, np.random.default_rng(3)
+    level = np.append(np.zeros(100), 340.0 * np.sin(np.linspace(0.0, 20.0, 2000)) ** 2)
+    sums = np.cumsum(level) + random.uniform()
+    steps = np.rint(level + noise * random.standard_normal(2100)) if noise else np.diff(np.floor(sums), prepend=0.0)
+    found, sigma, edges = find_noise(step * steps, np.ones(2100), window)
+    assert (found > 0.0, edges) == (counts > 0, counts)
+    assert sigma == (0.0 if counts else pytest.approx(noise * step, rel=0.15))
+
+
+@pytest.mark.parametrize(
+    ("step", "converted"),
+    [(5.0 / 1023.0, True), (3.3 / 4096.0, True), (0.005, False), (tau / 60.0, False), (0.0, False)],
+)
+def test_the_steps_of_a_converter_of_volts_are_known(step: float, converted: bool) -> None:
+    """A tachogenerator behind ten bits was said to be timed between edges, a slot of 0.0506 rad each."""
+    plain = noisy(0.0)
+    speed = step * np.rint(plain.speed / 0.05) if step else plain.speed
+    assert is_converted(replace(plain, speed=speed)) is converted
 
 
 @pytest.mark.parametrize(("near", "counts"), [(1e-5, 0), (3.5e-4, 12562)])

@@ -181,6 +181,17 @@ def test_speeds_of_a_few_steps_tell_no_slot(step: float, coarse: bool, monkeypat
     assert timing_of(log).slot == 0.0 and bool(looked) != coarse
 
 
+@pytest.mark.usefixtures("without_ticks")
+@pytest.mark.parametrize("converted", [True, False])
+def test_a_converters_steps_are_no_times_between_edges(converted: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A tachogenerator behind ten bits was said to be a slot of 0.0506 rad over the time between two edges."""
+    shaper = shaper_of(logged(48))
+    monkeypatch.setattr(speed_timing, "is_converted", lambda _: converted)
+    monkeypatch.setattr(speed_timing, "find_likeliest_slot", lambda *_: SlotGain(0.1, 100.0, 200))
+    monkeypatch.setattr(speed_timing, "measure_gain_over_lag", lambda *_: 1.0)
+    assert (speed_timing._find_periods(shaper, ASSUMED) is None) is converted
+
+
 @pytest.mark.usefixtures("unlike_lag")
 def test_a_slot_that_passes_many_times_in_a_row_is_an_instant(monkeypatch: pytest.MonkeyPatch) -> None:
     """A tachogenerator at 1 kHz had a slot of a thousandth of a row, and no noise then: its friction was not named."""
