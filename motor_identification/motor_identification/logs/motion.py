@@ -35,7 +35,7 @@ from motor_identification.logs.signals import Floats, Integers, Signals
 from motor_identification.sensor.held_samples import count_held_rows, find_frames
 from motor_identification.sensor.pulses.timer_ticks import are_over_slots
 from motor_identification.sensor.running_mean import find_running_mean, size_of_count, take_single_rows
-from motor_identification.sensor.speed_sensor import are_smoothed, find_noise
+from motor_identification.sensor.speed_sensor import are_blurred, are_smoothed, find_noise
 from motor_identification.sensor.value_lattice import find_lattice
 from motor_model.errors import RecordingError
 from motor_model.gearing.gear import edge_angle
@@ -198,9 +198,10 @@ def _about_count(form: CsvForm, signals: Signals, edges: int, window: float) -> 
     if step > 0.0:
         frame = 0.0 if form.speed_window else _measure_frame(signals)
         counts = tau / (step * (frame or window)) / float(form.gear)
+        what = "Values of a few counts are near" if are_blurred(signals.motion * unit, step) else "Values are"
         new, within = (f", a new one every {frame * 1e3:.4g} ms", "that") if frame else ("", "the window")
         return (
-            f"Values are multiples of {step / unit:.4g} {form.unit}{new}: one count within {within} if the encoder has "
+            f"{what} multiples of {step / unit:.4g} {form.unit}{new}: one count within {within} if the encoder has "
             f"{counts:.5g} per revolution (assumed; otherwise: --edges-per-revolution)."
             f"{doubt_counts(counts, frame or window, step / unit, printed_digit(signals.motion))}"
             f"{'' if read_heading(form.motion).unit else doubt_unit(form.unit, counts, step / unit, frame or window)}"

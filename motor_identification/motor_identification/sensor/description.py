@@ -16,6 +16,10 @@ WRONG = (
     "moved."
 )
 LATTICE = "Every speed{} is a multiple of {} rad/s ({} deg/s): {} counts a turn over {} ms are assumed."
+BLURRED = (
+    "Speeds of a few counts are near multiples of {} rad/s ({} deg/s): {} counts a turn over {} ms are assumed. Larger "
+    "ones lie between, as counts do that were divided by lengths of rows which their stamps do not show."
+)
 BY_ROWS = ", by the length of its row beside the usual one,"
 SOME_BY_ROWS = ", in some recordings by the length of its row beside the usual one,"
 FEW = "There are too few speeds to tell their noise: {} rad/s is assumed."
@@ -38,13 +42,14 @@ def note_sensors(recordings: Sequence[Recording]) -> tuple[Recording, ...]:
 
 def tells_of_speeds(note: str) -> bool:
     """Decide whether a note says how speeds were taken to be made."""
-    return note.startswith(tuple(text.split("{")[0] for text in (HELD, LATTICE, FEW, WHITE)))
+    return note.startswith(tuple(text.split("{")[0] for text in (HELD, LATTICE, BLURRED, FEW, WHITE)))
 
 
 def describe_speed_sensors(sensors: Sequence[tuple[SpeedSensor, bool]]) -> str:
     """Say what was found of speed sensors, each with whether its counts were known; empty where nothing is new."""
     held = [sensor for sensor, _ in sensors if sensor.frame > 0.0]
-    counted = [sensor for sensor, known in sensors if sensor.step > 0.0 and not known]
+    lattices = [sensor for sensor, known in sensors if sensor.step > 0.0 and not known]
+    counted, blurred = ([one for one in lattices if one.blurred is some] for some in (False, True))
     white = [sensor for sensor, known in sensors if sensor.sigma > 0.0 and not known]
     told = [sensor for sensor in white if len(sensor.row) >= LEAST_SAMPLES]
     few = [sensor for sensor in white if len(sensor.row) < LEAST_SAMPLES]
@@ -61,6 +66,8 @@ def describe_speed_sensors(sensors: Sequence[tuple[SpeedSensor, bool]]) -> str:
         parts.extend(
             LATTICE.format(text, *_number_lattice(some)) for some, text in ((even, ""), (by_rows, BY_ROWS)) if some
         )
+    if blurred:
+        parts.append(BLURRED.format(*_number_lattice(blurred)))
     for some, text in ((told, WHITE), (few, FEW)):
         if some:
             parts.append(text.format(_span((one.sigma for one in some), "{:.2g}")))

@@ -9,7 +9,13 @@ from motor_identification.recording import Bools, Floats, Integers, Recording
 from motor_identification.sensor.held_samples import find_frames
 from motor_identification.sensor.parabola_scatter import measure_summed
 from motor_identification.sensor.unseen_starts import mark_unseen_starts
-from motor_identification.sensor.value_lattice import are_whole_products, find_lattice, measure_blur
+from motor_identification.sensor.value_lattice import (
+    MOST_SCATTER,
+    are_whole_products,
+    find_lattice,
+    measure_blur,
+    measure_scatter,
+)
 from motor_identification.sensor.white_noise import LEAST_SAMPLES, estimate_white_noise
 from motor_identification.sensor.wrong_speeds import mark_silent_rows, mark_wrong_speeds
 from motor_model.sample import Info, Measurement
@@ -67,6 +73,7 @@ class SpeedSensor:
     edges_per_revolution: int  # of the encoder's shaft: what was said or follows from the step; 0 without
     wrong: int = 0  # values that were left out, since no motor has them
     lengths: Floats | None = None  # [s] of their own rows, where counts were divided by those
+    blurred: bool = False  # whether the few counts alone are near whole ones: others lie anywhere between
 
     @property
     def count(self) -> float:
@@ -103,7 +110,16 @@ def find_speed_sensor(recording: Recording) -> SpeedSensor:
         sharper = own > 0.0 and (step <= 0.0 or measure_blur(by_length, own) < SHARPER * measure_blur(speed[row], step))
         if sharper and not whole:
             return SpeedSensor(row, made, window, lag, frame, own, sigma_of_own, counts, wrong, lengths)
-    return SpeedSensor(row, made, window, lag, frame, step, sigma, edges, wrong)
+    blurred = not said and are_blurred(speed[row], step)
+    return SpeedSensor(row, made, window, lag, frame, step, sigma, edges, wrong, blurred=blurred)
+
+
+def are_blurred(values: Floats, step: float) -> bool:
+    """Whether not all values (K,) are near to multiples of their step, but those of a few counts: 0 is no step.
+
+    So are counts that were divided by lengths of rows which stamps do not show.
+    """
+    return step > 0.0 and measure_scatter(np.abs(values), step) > MOST_SCATTER
 
 
 def _find_window(recording: Recording) -> tuple[float, float]:

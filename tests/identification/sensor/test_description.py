@@ -74,6 +74,15 @@ def test_a_noisy_angle_is_said() -> None:
     assert note_sensors([exact]) == (exact,)
 
 
+def test_multiples_that_the_few_alone_are_near_are_not_said_of_every_speed() -> None:
+    """Of 2,000 speeds 1,133 were different, each said to be a multiple: counts by lengths that no stamp showed."""
+    few = said(replace(sensor(step=0.1121997), blurred=True))
+    assert few.startswith(
+        "Speeds of a few counts are near multiples of 0.1122 rad/s (6.429 deg/s): 2,800 counts a turn"
+    )
+    assert tells_of_speeds(few) and "very" not in few
+
+
 def test_what_tells_how_speeds_were_made_is_known_by_its_words() -> None:
     for one in (sensor(step=0.1), sensor(sigma=0.1), sensor(sigma=0.1, rows=14), sensor(frame=0.02)):
         assert tells_of_speeds(said(one))

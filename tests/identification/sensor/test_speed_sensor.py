@@ -18,6 +18,7 @@ from motor_identification.sensor.speed_sensor import (
     EVEN_ROWS,
     NOISE_BEYOND_DIGITS,
     UNTOLD,
+    are_blurred,
     are_smoothed,
     find_counts,
     find_noise,
@@ -252,6 +253,20 @@ def test_printed_digits_in_rows_of_whole_milliseconds_are_no_counts_of_their_len
     found = find_speed_sensor(replace(log, speed=speed, sample_time=1_000_000 * np.cumsum(rows), info=info))
     assert are_whole_products(speed, rows * 1e-3, 0.01 * 1e-3) == whole
     assert (found.step, found.lengths) == (0.0, None) and found.sigma > 0.0
+
+
+@pytest.mark.parametrize(("uneven", "blurred"), [(0.0, False), (0.02, True)])
+def test_quotients_by_lengths_that_stamps_hide_are_near_whole_counts_where_they_are_few(
+    uneven: float, blurred: bool
+) -> None:
+    random = np.random.default_rng(1)
+    lengths = 0.01 * (1.0 + uneven * random.standard_normal(2000))
+    rates = np.repeat([0.0, 0.5, 1.5, 2.5, 3.5, 20.0, 60.0, 100.0], 250)
+    counts = np.diff(np.floor(np.cumsum(rates * lengths / 0.01)), prepend=0.0)
+    speed = np.round(counts * 0.00327 / lengths, 3)
+    step = find_counts(speed, 0.01)
+    assert step == pytest.approx(0.327, rel=0.01) and are_blurred(speed, step) is blurred
+    assert not are_blurred(speed, 0.0)
 
 
 def test_lengths_of_rows_matter_only_where_they_differ() -> None:

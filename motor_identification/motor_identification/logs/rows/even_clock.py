@@ -14,6 +14,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from motor_identification.logs.signals import Floats, Signals
 from motor_identification.sensor.parabola_scatter import WINDOW, measure_scatter, subtract_parabolas
 from motor_identification.sensor.row_clock import lay_clocks
+from motor_identification.sensor.speed_sensor import are_blurred
 from motor_identification.sensor.value_lattice import find_lattice
 
 MOST_ROWS = 20_000  # that the motion is looked at in
@@ -147,11 +148,15 @@ def _find_share(expected: Floats, left: Floats, power: Floats) -> float:
 def _count_travel(clocks: list[Floats], stamps: Floats, speeds: Floats) -> Floats | None:
     """Sum up the counts of speeds (K,), of one period or of rows' own; None where they are not counted.
 
-    Counts that were summed up are a position to one count. A converter's steps, or printed decimals, are not.
+    Counts that were summed up are a position to one count. A converter's steps, or printed decimals, are not. Nor are
+    quotients by lengths of rows that nobody logged, of which the few alone lie near to whole ones: summed up, any rows
+    would be even.
     """
     for values in (speeds, speeds * np.diff(stamps, prepend=stamps[0])):
         step = find_lattice(values[1:])
         if step == 0.0 or abs(log10(step) - round(log10(step))) < PRINTED:
+            continue
+        if are_blurred(values[1:], step):
             continue
         counts = np.cumsum(values / step)
         left = min(_measure_fast_scatter(clock, counts) for clock in clocks) / (WINDOW - 3)

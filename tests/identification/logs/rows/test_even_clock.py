@@ -141,6 +141,17 @@ def test_counts_of_rows_that_came_when_they_say_keep_their_stamps() -> None:
         assert restore_even_clock(logged, is_speed=True) == (logged, [])
 
 
+def test_counts_divided_by_lengths_that_whole_milliseconds_hide_keep_their_stamps() -> None:
+    """A loop that runs away by 2 % a row was put on an even clock, 2.7 ms off stamps that were right to half one."""
+    random = np.random.default_rng(1)
+    lengths = PERIOD * (1.0 + 0.02 * random.standard_normal(2000))
+    true = np.cumsum(lengths)
+    rates = np.repeat([0.0, 0.5, 1.5, 2.5, 3.5, 20.0, 60.0, 100.0], 250)  # counts in a row; of the few it shows them
+    counts = np.diff(np.floor(np.cumsum(rates * lengths / PERIOD)), prepend=0.0)
+    logged = signals(np.floor(true * 1e3) * 1e-3, np.round(counts * 0.37 / lengths, 2))
+    assert restore_even_clock(logged, is_speed=True) == (logged, [])
+
+
 def test_a_row_for_every_flank_is_on_no_clock() -> None:
     """There the count is even by row whatever the time was; also where a few were missed, or stand."""
     random = np.random.default_rng(5)
