@@ -11,6 +11,7 @@ import numpy as np
 
 from motor_identification.recording import Floats, Recording
 from motor_identification.sensor.row_clock import RUN_AWAY, lay_clocks, measure_period
+from motor_identification.sensor.speed_sensor import find_speed_sensor
 
 LEAST_ROWS = 50
 IRREGULAR = 0.01  # of a row: standard deviation of the rows' lengths that matters
@@ -57,7 +58,12 @@ AS_STAMPED = RowTimes()
 
 
 def list_row_times(recording: Recording) -> list[RowTimes]:
-    """List how the times of a recording's rows may be read otherwise than they say."""
+    """List how the times of a recording's rows may be read otherwise than they say.
+
+    None of counts that were divided by lengths which stamps hide: summed up, they are even by any rows.
+    """
+    if find_speed_sensor(recording).blurred:
+        return []
     shares = [clock.run_away for clock in lay_clocks(recording.time)]
     clocks = [None, *(share for share in (0.0, *RUN_AWAY) if share in shares)]
     return [

@@ -13,7 +13,8 @@ from motor_identification.estimation.request import SearchConfig
 from motor_identification.estimation.search.global_search import search_globally
 from motor_identification.recording import Floats, Recording, check
 from motor_identification.sensor.row_clock import measure_period
-from motor_identification.timing import speed_timing
+from motor_identification.sensor.speed_sensor import find_speed_sensor
+from motor_identification.timing import row_times, speed_timing
 from motor_identification.timing.row_times import AS_STAMPED, LONGEST, RowTimes, list_row_times
 from motor_identification.timing.shaped_fit import Shaper
 from motor_identification.timing.speed_filter import MEMORY, SpeedFilter
@@ -165,3 +166,14 @@ def test_uneven_rows_that_hold_the_voltage_until_them_are_read_so() -> None:
     timed = read_again(late, found)
     assert np.array_equal(timed.voltage[:-1], recording.voltage[:-1]) and timed.info == recording.info
     assert any("(--voltage-before says so to an import)" in note for note in timed.notes)
+
+
+@pytest.mark.parametrize("blurred", [False, True])
+def test_quotients_by_lengths_that_stamps_hide_are_on_no_other_clock(
+    blurred: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Stamps that were right to half a millisecond were put on an even clock, 3.5 ms off, which no option forbade."""
+    late = logged(EVEN, LATE)
+    found = replace(find_speed_sensor(late), blurred=blurred)
+    monkeypatch.setattr(row_times, "find_speed_sensor", lambda _: found)
+    assert bool(list_row_times(late)) is not blurred
