@@ -8,9 +8,10 @@
 #define SILENT_COUNTS 100 /* 2 MHz / 100 = 20 kHz on the enable */
 
 /* In the off part of a period the bridge has its enable low, or both inputs alike; which of the two brakes is the
- * bridge's. At duty 0 both inputs are alike whatever is pulsed, so that no single pin, stuck or shorted, is all between
- * 0 V and full voltage; ZERO_IS_HIGH: which level is the off part's, where the enable is pulsed. Both inputs high brake
- * a TB6612FNG, as its PWM low does; both low are open on an L298N with its enable low. */
+ * bridge's. At duty 0 both inputs are alike whatever is pulsed, so that an enable that is stuck or shorted is not full
+ * voltage; where inputs are pulsed the enable is high, and an input that is stuck is. ZERO_IS_HIGH: which level that
+ * is, where the enable is pulsed. Both inputs high brake a TB6612FNG, as its PWM low does; both low are open on an L298N
+ * with its enable low. */
 #if MOTOR_BRIDGE == BRIDGE_L298N
 #define PULSES_ENABLE(decay) ((decay) == WIRE_DECAY_COAST)
 #define OFF_IS_HIGH(decay) false
@@ -44,9 +45,10 @@ void bridge_start(void)
     ENABLE_TOP = SILENT_COUNTS - 1;
 }
 
-/* PWM on the enable, inputs say the direction, and at duty 0 none. A compare value of n - 1 is high for n counts; as 0 is high for one, duty
- * 0 is a plain low pin. `anew`: the pin was low or meant something else. The chip takes a compare value over when the
- * next period begins, and until then would pulse with an old one: the last count of a period makes one begin now. */
+/* PWM on the enable, inputs say the direction, and at duty 0 none. A compare value of n - 1 is high for n counts; as 0
+ * is high for one, duty 0 is a plain low pin. `anew`: the pin was low or meant something else. The chip takes a compare
+ * value over when the next period begins, and until then would pulse with an old one: the last count of a period makes
+ * one begin now. */
 static void write_enable(uint8_t compare, bool zero, bool anew, bool silent)
 {
     uint8_t mode = silent ? ENABLE_SILENT : ENABLE_FAST;

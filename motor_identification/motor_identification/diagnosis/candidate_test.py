@@ -96,8 +96,8 @@ class CandidateTest:
     def is_of_torque(self) -> bool:
         """Whether a motor breaks away at no more above its sliding friction than a random torque adds, or takes.
 
-        A motor that stands starts when voltage and torque together are beyond its friction, later or sooner than without
-        the torque. One that lasts for less than a row is rather the sensor's noise.
+        A motor that stands starts when voltage and torque together are beyond its friction, later or sooner than by
+        the voltage alone. A torque that lasts for less than a row is rather the sensor's noise.
         """
         spec = EFFECT_BY_NAME[self.effect].parameters[0]
         if spec.at_least is None or not self.model.beside_torque:

@@ -167,8 +167,9 @@ CANDIDATE_EVALUATIONS, FINAL_EVALUATIONS = 40, 120
 # likelihood, as how much less likely, and times the gap, as leaving how much less, it is fitted so at all. Measured: an
 # asymmetry of 0.9 was found as 0.95 (-1.5, the gap 12.5 to 10), then as 0.92, 0.90 and 0.89 (+3.1, +6.5 and +7.0).
 REFINEMENTS, HELD_BACK, HELD_BACK_GAP = 3, 10.0, 0.95
-# RMS of a random torque: by how much a motor breaks away above its sliding friction, beside one. Measured: XXX
-BREAKAWAY_SIGMA = 2.5
+# RMS of a random torque: by how much a motor breaks away above its sliding friction, beside one. Measured: 1.73 and
+# 1.76 where a ripple and a friction were all there was, likelier by 12 and 90; 2.6 and more where it breaks away.
+BREAKAWAY_SIGMA = 2.2
 # How often a model is fitted again from where the best finding leads, beside a random torque.
 VERIFICATIONS = 3
 # Cycles a turn, beside one: a torque so near to it is what such slots do, where they are likelier. Measured: 3e-5.

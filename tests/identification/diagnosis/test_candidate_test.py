@@ -252,3 +252,40 @@ def test_what_moves_a_model_at_the_sensors_floor_by_next_to_nothing_is_no_findin
     (angle,) = held.angles
     model = replace(model, held=replace(held, angles=(angle - shift * np.append(0.0, STEP * np.arange(1, COUNT + 1)),)))
     assert CandidateTest("load_bias", before, model).relevant is relevant
+
+
+@pytest.mark.parametrize(
+    ("effect", "above", "rms", "lasts", "of_torque"),
+    [
+        ("static_friction", 0.999 * thresholds.BREAKAWAY_SIGMA * 0.1, 0.1, 1.0, True),
+        ("static_friction", 1.001 * thresholds.BREAKAWAY_SIGMA * 0.1, 0.1, 1.0, False),
+        ("static_friction", 0.1, 0.1, 0.99, False),  # rather the sensor's noise
+        ("static_friction", 0.1, None, 1.0, False),  # beside none
+        ("coulomb_friction", 0.1, 0.1, 1.0, False),
+    ],
+)
+def test_a_breakaway_that_a_random_torque_makes_is_not_likely(
+    effect: str, above: float, rms: float | None, lasts: float, of_torque: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of a friction and a ripple a breakaway 1.76 times the torque above the friction was likelier by 90."""
+    monkeypatch.setattr(candidate_test, "was_held", lambda model: False)
+    row = 0.005
+    values = {"ks": 0.4, "breakaway_voltage": 0.4 + above}
+    estimate: Any = SimpleNamespace(
+        parameters=SimpleNamespace(value=values.__getitem__), problem=SimpleNamespace(sample_period=row)
+    )
+    errors = ErrorModel(0.0, 0.0, rms or 0.0, lasts * row)
+    moments = np.full(200, 90.0 / 200)
+
+    class Disturbed(StubModel):
+        @property
+        def errors(self) -> ErrorModel:  # type: ignore[override]
+            return errors
+
+    def model(likelihood: float, moments: np.ndarray) -> Model:
+        score = Score(likelihood, held_out=likelihood, scored=2000, moments=moments)
+        stub = stub_model(1.0)
+        return Disturbed(estimate, stub.held, stub.noise, score, None if rms is None else errors)
+
+    test = CandidateTest(effect, model(0.0, np.zeros(200)), model(90.0, moments))
+    assert test.is_of_torque is of_torque and test.is_likely(likelihood_threshold()) is not of_torque

@@ -302,3 +302,29 @@ def test_voltages_of_smoothed_counts_held_until_their_rows_only_where_the_motion
     monkeypatch.setattr(speed_timing, "held_until", lambda shaper: confirmed)
     said = describe(check(noisy(0.05)), edges_per_revolution=960)
     assert speed_timing._find_voltages(Shaper([said], cast(Estimate, None), None)) == found
+
+
+@pytest.mark.parametrize(("rows", "beaten"), [(0, True), (5, False)])
+def test_a_few_rows_do_not_rule_instants_of_counts_out(rows: int, beaten: bool) -> None:
+    white = np.random.default_rng(0).standard_normal(2000)
+    other = 0.95 * white if rows else 1.1 * white
+    other[:rows] = 30.0
+    instants: Any = (OTHERS[0], SimpleNamespace(residuals=other))
+    assert measure_gain(other, white) > 150.0
+    assert speed_timing._beats(white, instants, counted=True) is beaten
+
+
+@pytest.mark.parametrize(
+    ("factor", "rows", "likelier"), [(1.1, 0, True), (0.9, 0, False), (0.95, 5, False), (1.001, -5, False)]
+)
+def test_instants_are_likelier_by_all_rows_and_not_by_a_few(factor: float, rows: int, likelier: bool) -> None:
+    """Neither where few rows speak for them nor where few speak against them by as much as all others do for."""
+    white = np.random.default_rng(0).standard_normal(2000)
+    own, before = white.copy(), factor * white
+    if rows > 0:
+        before[:rows] = 30.0
+    elif rows < 0:
+        own[:-rows] = 30.0
+    fits = {OTHERS[0]: own, ASSUMED: before}
+    shaper: Any = SimpleNamespace(fit=lambda timing: SimpleNamespace(residuals=fits[timing]))
+    assert speed_timing._is_likelier_by_all(shaper, OTHERS[0], ASSUMED) is likelier

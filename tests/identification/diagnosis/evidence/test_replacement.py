@@ -100,3 +100,21 @@ def test_what_holds_a_motor_speaks_in_few_moments(
     monkeypatch.setattr(module, "was_held", lambda one: held and one is current)
     test = CandidateTest("load_bias", current, model(0.0, np.zeros(60)))
     assert find_loss(test, current, effect) == loss
+
+
+@pytest.mark.parametrize(("effect", "better"), [("static_friction", False), ("backlash", True)])
+def test_a_load_is_no_better_than_what_holds_a_motor_in_few_moments(
+    monkeypatch: pytest.MonkeyPatch, effect: str, better: bool
+) -> None:
+    moments = np.zeros(60)
+    moments[[7, 20, 41]] = 30.0
+
+    def model(likelihood: float, moments: Floats) -> Model:
+        score = Score(likelihood, moments=moments)
+        one = SimpleNamespace(likelihood=likelihood, held=SimpleNamespace(gap=1.0), score=score, beside_torque=True)
+        return cast(Model, one)
+
+    current = model(90.0, moments)
+    monkeypatch.setattr(module, "was_held", lambda one: True)
+    monkeypatch.setattr(module, "is_same_motion", lambda one, other: False)
+    assert is_better(CandidateTest("load_bias", current, model(0.0, np.zeros(60))), effect, current) is better

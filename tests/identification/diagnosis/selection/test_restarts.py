@@ -287,3 +287,15 @@ def test_what_comes_with_a_kindred_effect_alone_is_tried_beside_that(
     monkeypatch.setattr(module, "select_forward", lambda *rest, **how: other)
     assert retry_with_dependent(begun, SILENT) is (other if taken else begun)
     assert asked == ([["static_friction"]] if tried else [])
+
+
+def test_nothing_is_tried_beside_a_kindred_effect_that_was_judged_beside_a_torque(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    before = stub_model(9.0)
+    first, friction = stub_test("dead_zone", before, 5.0, 100.0), stub_test("coulomb_friction", before, 5.0, 95.0)
+    model = replace(with_effects(friction.model, "coulomb_friction"), learned=ErrorModel(0.0, 0.0, 0.1, 0.1))
+    begun = selection_of(with_effects(stub_model(5.0), "dead_zone"), step_of(first, replace(friction, model=model)))
+    monkeypatch.setattr(module, "list_candidates", lambda *_: ["static_friction"])
+    monkeypatch.setattr(module, "begin_selection", lambda *rest: pytest.fail("it was tried"))
+    assert retry_with_dependent(begun, SILENT) is begun

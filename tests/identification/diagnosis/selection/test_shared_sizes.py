@@ -6,7 +6,7 @@ from typing import Any, cast
 import numpy as np
 import pytest
 from plant import profiles, record
-from stub_models import stub_model, stub_test
+from stub_models import same_errors, stub_model, stub_test
 from stub_selections import step_of
 
 from motor_identification.diagnosis import thresholds
@@ -51,11 +51,12 @@ def test_what_does_most_of_what_a_finding_does_may_share_its_size(
     assert list_sharing(rival, (found,)) == []
 
 
-def half(friction: float, dead_zone: float, error: float) -> bool:
+def half(friction: float, dead_zone: float, error: float, beside_torque: float | None = None) -> bool:
     names = ("kv", "ka", "ks", "dead_zone_voltage")
     unknowns = SimpleNamespace(names=names)
     fit = SimpleNamespace(theta=np.array([1.0, 1.0, friction, dead_zone]), problem=SimpleNamespace(unknowns=unknowns))
-    model: Any = SimpleNamespace(whitened=fit, uncertainty=SimpleNamespace(errors=np.array([0.1, 0.1, error, error])))
+    told = None if beside_torque is None else (fit, same_errors(beside_torque))
+    model: Any = SimpleNamespace(whitened=fit, uncertainty=same_errors(error), told_beside_torque=told)
     return may_have_half(cast(Model, model), "coulomb_friction", "dead_zone")
 
 
@@ -64,6 +65,8 @@ def test_half_is_another_effects_within_its_standard_error() -> None:
     assert half(0.9, 0.3, ABOVE * most) and not half(0.9, 0.3, BELOW * most)
     assert half(0.5, 0.7, 1e-3) and not half(1.2, 0.0, 0.1)
     assert half(1.2, 0.0, float("nan"))  # of which nothing is known
+    # What knows of the random torque tells: of 0.5 V of friction half was doubted beside 0.15 V.
+    assert half(0.9, 0.3, BELOW * most, ABOVE * most) and not half(0.9, 0.3, ABOVE * most, BELOW * most)
 
 
 def rivals(profile: profiles.Profile, **hidden: float) -> tuple[str, ...]:

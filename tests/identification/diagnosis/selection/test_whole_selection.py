@@ -106,3 +106,22 @@ def test_a_torque_that_takes_the_place_of_the_motor_in_the_end_is_not_believed(
     monkeypatch.setattr(module, "find_untold", lambda model: ())
     chosen, _ = module.select(start, SILENT)
     assert chosen.model is (left if torque else plain).model
+
+
+def test_what_comes_with_a_kindred_effect_is_tried_and_sizes_are_doubted_in_every_selection(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    start = selection_of(stub_model(9.0))
+    plain = selection_of(stub_model(1.0, 0.0), step_of(stub_test("dead_zone", start.model, 1.0, 100.0)))
+    dependent = selection_of(stub_model(0.9, 0.0), step_of(stub_test("coulomb_friction", start.model, 0.9, 110.0)))
+    doubted = selection_of(stub_model(0.9, 0.0), step_of(stub_test("coulomb_friction", start.model, 0.9, 110.0)))
+    monkeypatch.setattr(module, "select_forward", lambda *_, **__: plain)
+    for name in ("retry_with_another_first", "retry_with_pair"):
+        monkeypatch.setattr(module, name, lambda selection, reporter: selection)
+    monkeypatch.setattr(module, "retry_with_dependent", lambda one, reporter: dependent if one is plain else one)
+    monkeypatch.setattr(module, "select_beside_torque", lambda *rest: None)
+    monkeypatch.setattr(module, "eliminate_backward", lambda selection, reporter: selection)
+    monkeypatch.setattr(module, "drop_undetermined", lambda selection, reporter: (selection, ()))
+    monkeypatch.setattr(module, "find_untold", lambda model: ())
+    monkeypatch.setattr(module, "doubt_shared_sizes", lambda one: doubted if one.model is dependent.model else one)
+    assert module.select(start, SILENT) == (doubted, ())
