@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from motor_identification.logs.columns.behaviour.held_set_point import holds_a_set_point, share_of_changes
 from motor_identification.logs.columns.behaviour.prompt_answer import answers_too_soon
 from motor_identification.logs.columns.clock import (
     SLOWEST,
@@ -16,9 +17,8 @@ from motor_identification.logs.columns.clock import (
     since_1970,
 )
 from motor_identification.logs.columns.heading import read_heading
-from motor_identification.logs.columns.motor_form import STEPS_BETWEEN, Rows, make_form, share_of_changes
+from motor_identification.logs.columns.motor_form import STEPS_BETWEEN, Rows, make_form
 from motor_identification.logs.columns.notes import Notes
-from motor_identification.logs.columns.roles.candidates import is_numeric
 from motor_identification.logs.columns.roles.roles import Roles, find_roles
 from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.columns.vocabulary import Quantity
@@ -28,7 +28,6 @@ from motor_model.errors import RecordingError
 
 _AT_A_RATE = re.compile(r"\d\s*k?hz\b", re.I)  # in the name of a column of times: 8 kHz
 MOST_STAIRS = 100  # rows: a program that looks at a motor every millisecond logs more
-STAYS = 0.5  # of the rows that a controller's set point changes in at most
 SHORTEST = 1e-6  # [s] between rows: what a unit makes shorter is in another one
 
 
@@ -107,7 +106,7 @@ def _rows(table: Table, roles: Roles, said: Said, notes: Notes) -> Rows:
     stamps = table.nanoseconds(roles.time, time_unit_size(unit))
     period = row_period(np.asarray(stamps * 1e-9, dtype=np.float64))
     far_apart = period > SLOWEST and share_of_changes(table.numbers(roles.pairs[0].voltage)) > STEPS_BETWEEN
-    controlled = far_apart and _holds_a_set_point(table)
+    controlled = far_apart and any(holds_a_set_point(table, pair, said) for pair in roles.pairs)
     if controlled:
         notes.findings.append(
             f"Caution: rows are {period:.3g} s apart, and a controller changes the voltage meanwhile: what it drove "
@@ -175,13 +174,6 @@ def _find_longer_unit(table: Table, roles: Roles, said: Said, unit: str) -> str:
         if answers_too_soon(drive, motion, is_speed, period * TIME_UNITS[unit]):
             return units[place]
     return ""
-
-
-def _holds_a_set_point(table: Table) -> bool:
-    """Whether a log has a set point that stays from row to row, as where a controller drives: of a curve it goes on."""
-    numeric = (read_heading(name) for name in table.names if is_numeric(table, name))
-    targets = [table.numbers(one.name) for one in numeric if one.quantity is Quantity.REFERENCE]
-    return any(bool(np.any(target)) and share_of_changes(target) < STAYS for target in targets)
 
 
 def _ask_once(questions: Sequence[tuple[str, str]]) -> str:

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_identification.logs.columns.behaviour.codes import find_codes
+from motor_identification.logs.columns.behaviour.held_set_point import share_of_changes
 from motor_identification.logs.columns.behaviour.standing_start import begins_at_rest
 from motor_identification.logs.columns.behaviour.swings import goes_to_and_fro
 from motor_identification.logs.columns.cautions import (
@@ -176,11 +177,6 @@ def _ask_for_times(table: Table, pair: Pair, kind: Kind, notes: Notes) -> None:
         notes.questions.append((pair.voltage, f"stays from row to row, {times}; or --steady"))
     elif goes_to_and_fro(table.numbers(pair.voltage)):
         notes.questions.append((pair.voltage, f"goes to and fro, {times}; or --steady"))
-
-
-def share_of_changes(values: Floats) -> float:
-    """Count the rows whose value, shape (K,), is another than in the row before, as a share."""
-    return float(np.mean(values[1:] != values[:-1]))
 
 
 def _rest(table: Table, stamps: Floats | None, pair: Pair, kind: Kind, said: Said, notes: Notes) -> float | None:

@@ -112,7 +112,7 @@ def test_rows_far_apart_with_a_voltage_each_are_steady_states(tmp_path: Path, pe
     [("100", False), ("{k}", True), ("0", True)],  # held; a curve's own; of no controller
 )
 def test_rows_far_apart_under_a_controller_are_no_steady_states(tmp_path: Path, target: str, steady: bool) -> None:
-    rows = [f"{k},{target.format(k=k)},{k % 7 + 1},{10 * (k % 7)}" for k in range(40)]
+    rows = [f"{k},{target.format(k=k)},{k % 7 + 1},{95 + 5 * k % 11}" for k in range(40)]
     (tmp_path / "log.csv").write_text("\n".join(["t [s],Setpoint,u,speed [rpm]", *rows]))
     guess = guess_forms(read_table(tmp_path / "log.csv"), Said())
     assert (guess.forms[0].time is None) == steady
