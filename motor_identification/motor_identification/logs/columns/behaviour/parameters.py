@@ -10,15 +10,16 @@ from motor_identification.logs.columns.heading import Heading, words_besides
 from motor_identification.logs.columns.vocabulary import MOVES, Quantity
 from motor_identification.logs.csv.table import Table
 
-MOST_CHANGES = 3  # of a parameter, which somebody sets now and then; a speed that is measured changes more often
+# Of a parameter, which somebody sets now and then; what drives a motor, or is measured of it, changes more often.
+MOST_CHANGES = 3
 FEWEST_CHANGES = 10  # of the motion beside it, where a motor moves
 
 
 def leave_out_parameters(table: Table, headings: Sequence[Heading]) -> list[Heading]:
     """Read parameters as such: speeds that stay at a number other than 0 while another motion goes on.
 
-    And what drives or moves under the same name, but for a position that goes on with a drive of that name beside it. A
-    motor that stands has a speed of 0.
+    And what drives or moves under the same name, but where a motion goes on with a drive of that name that changes: a
+    filter's estimate has its parameters' name, which stay. A motor that stands has a speed of 0.
     """
     changes = {one.name: _count_changes(table, one.name) for one in headings if one.quantity in MOVES}
     set_once = [
@@ -26,7 +27,8 @@ def leave_out_parameters(table: Table, headings: Sequence[Heading]) -> list[Head
         for one in headings
         if one.quantity is Quantity.SPEED and changes[one.name] <= MOST_CHANGES and np.all(table.numbers(one.name))
     ]
-    motors = {words_besides(one) for one in headings if drives(one)}
+    driven = [one for one in headings if drives(one) and _count_changes(table, one.name) > MOST_CHANGES]
+    motors = {words_besides(one) for one in driven}
     motors &= {words_besides(one) for one in headings if changes.get(one.name, 0) >= FEWEST_CHANGES}
     set_once = [one for one in set_once if words_besides(one) not in motors - {()}]  # an axis that went on evenly
     names = {words_besides(one) for one in set_once} - {()}

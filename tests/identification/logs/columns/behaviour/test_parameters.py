@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from log_columns import DRIVE, FOLLOWS, TIME, columns
 
-from motor_identification.logs.columns.behaviour.parameters import leave_out_parameters
+from motor_identification.logs.columns.behaviour.parameters import MOST_CHANGES, leave_out_parameters
 from motor_identification.logs.columns.heading import read_heading
 from motor_identification.logs.columns.roles.roles import find_roles
 from motor_identification.logs.columns.said import Pair, Said
@@ -43,6 +43,19 @@ def test_an_axis_whose_position_goes_on_is_no_parameter_however_even_its_speed()
     assert left(**even) == list(even)
     assert left(**{**even, "roll_position": np.full(ROWS, 2.0)}, b_rpm=FOLLOWS) == ["b_rpm"]
     assert left(roll_position=even["roll_position"], roll_velocity=even["roll_velocity"], b_rpm=FOLLOWS) == ["b_rpm"]
+
+
+@pytest.mark.parametrize(("times", "motor"), [(MOST_CHANGES, False), (MOST_CHANGES + 1, True)])
+def test_a_filters_estimate_beside_its_parameters_is_no_motor(times: int, motor: bool) -> None:
+    """`KF_V` does not drive what the Kalman filter says of the motor, however often somebody sets it anew."""
+    variance = 3.0 + np.minimum(np.arange(ROWS) // 20, times)
+    axis = {"KF_W": np.full(ROWS, 0.3), "KF_V": variance, "KF_position [rad]": 7.0 * TIME}
+    assert left(**axis, voltage=DRIVE, speed=FOLLOWS) == ([*axis] if motor else []) + ["voltage", "speed"]
+    estimate = {"KF_W": np.full(ROWS, 0.3), "KF_V": np.full(ROWS, 3.0), "KF_speed [rad/s]": 39.0 * FOLLOWS}
+    pairs = find_roles(
+        columns(t=TIME, **estimate, **{"voltage [V]": DRIVE, "speed [rad/s]": 40.0 * FOLLOWS}), Said()
+    ).pairs
+    assert pairs == (Pair("", "voltage [V]", "speed [rad/s]"),)
 
 
 def test_a_motion_of_the_same_name_is_no_other_one_that_goes_on() -> None:
