@@ -3,8 +3,10 @@
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
-from motor_identification.logs.columns.vocabulary import UNIT_BY_SPELLING, UNITS
+from motor_identification.logs.columns.heading import read_heading
+from motor_identification.logs.columns.vocabulary import MOVES, SHARES, UNIT_BY_SPELLING, UNITS, Quantity
 
 RECEIVED = "received time"  # the column of a monitor's stamps: the last, so that a board's own clock goes before
 MOSTLY = 0.8  # of the first lines: others are the program's greetings
@@ -23,6 +25,9 @@ _CELL = (
 )
 _NAME, _NUMBER = re.compile(r"[^\W\d][\w /%°\[\]()]{0,40}"), re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _NAMED_CELL = re.compile(_CELL + r"(?:[,;|\t ]|$)")
+_TWO_WORDS = re.compile(
+    r"(?P<unit>[^\W\d_][\w/]{0,7}|%|°)[^\S\t]{1,8}(?P<name>[^\W\d][\w /%°\[\]()]{0,40}?)\s{0,8}[:=]"
+)
 
 
 @dataclass(frozen=True)
@@ -110,12 +115,39 @@ def _named_cells(line: str) -> dict[str, str]:
         match = _NAMED_CELL.match(line, place)
         if match is None or match["name"] in found:
             return {}
-        unit = UNIT_BY_SPELLING.get((match["unit"] or "").lower(), match["unit"])
+        place = match.end()
+        spelt = match["unit"] or ""
+        if not spelt and "\t" in line[match.end("value") : place] and (behind := _find_unit(match)):
+            spelt, place = behind["unit"], behind.start("name")
+        unit = UNIT_BY_SPELLING.get(spelt.lower(), spelt)
         if unit and unit not in UNITS and _stands_apart(match):
             return {}
         found[f"{match['name']} [{unit}]" if unit else match["name"]] = match["value"]
-        place = match.end()
     return found
+
+
+def _find_unit(cell: re.Match[str]) -> re.Match[str] | None:
+    """The unit behind a cell's tab, and the name behind a blank: one that people know, of what the cell's name tells.
+
+    What follows has to tell something without it: `PWM: 236<tab>V motor: 5` begins a name.
+    """
+    words = _TWO_WORDS.match(cell.string, cell.end())
+    unit = UNIT_BY_SPELLING.get(words["unit"].lower()) if words else None
+    return words if words and unit and _parts(cell["name"], unit, words["name"]) else None
+
+
+@lru_cache(maxsize=1000)
+def _parts(before: str, unit: str, behind: str) -> bool:
+    """Whether a unit may be that of what the name before it tells, and the name behind it tells something, too."""
+    kinds = (MOVES, frozenset({Quantity.VOLTAGE, Quantity.SUPPLY}))
+    told, of_unit = read_heading(before), UNITS[unit][0]
+    if read_heading(behind).quantity is None:
+        return False
+    if told.quantity in (None, Quantity.REFERENCE, Quantity.OTHER, of_unit):
+        return True
+    if told.quantity is Quantity.DUTY:  # a command may be in volts, a share of the supply is not
+        return of_unit is Quantity.VOLTAGE and not SHARES & set(told.words)
+    return any(told.quantity in kind and of_unit in kind for kind in kinds)
 
 
 def _stands_apart(cell: re.Match[str]) -> bool:

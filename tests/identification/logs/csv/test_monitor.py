@@ -1,5 +1,7 @@
 """Stamps and names that serial monitors put into their lines."""
 
+import pytest
+
 from motor_identification.logs.csv.monitor import take_apart
 
 
@@ -52,6 +54,24 @@ def test_behind_a_tab_a_name_of_several_words_begins_and_a_unit_is_all_of_its_ce
     assert take_apart(["w: 3\trpm\tu: 4\tV"] * 9).names == ("w [rpm]", "u [V]")
     assert take_apart(["w: 3 rpm u: 4 V"] * 9).names == ("w [rpm]", "u [V]")
     assert not take_apart(["PWM: 236 Pulsos por periodo: 4"] * 9).names  # by blanks alone nothing tells where it begins
+
+
+@pytest.mark.parametrize(
+    ("row", "names"),
+    [
+        ("Time: 0.01\ts Speed: 100\trpm Voltage: 5\tV", ("Time [s]", "Speed [rpm]", "Voltage [V]")),
+        ("Speed: 1\trpm Target: 2\trpm Voltage: 9\tV t: 0", ("Speed [rpm]", "Target [rpm]", "Voltage [V]", "t")),
+        ("Command: 9\tV Battery: 12\tV Motor speed: 3", ("Command [V]", "Battery [V]", "Motor speed")),
+        ("PWM: 9\t% Encoder: 3\trpm t: 1", ("PWM [%]", "Encoder [rpm]", "t")),
+        ("PWM: 9\tV speed: 3", ("PWM", "V speed")),  # no share is in volts
+        ("speed: 9\tV position: 3", ("speed", "V position")),  # nor a speed
+        ("u: 9\tV motor: 3", ("u", "V motor")),  # a motor is nothing that is logged
+        ("u: 9\tkp gain: 3", ("u", "kp gain")),  # no unit
+    ],
+)
+def test_a_known_unit_behind_a_tab_is_one_of_what_the_name_before_it_tells(row: str, names: tuple[str, ...]) -> None:
+    taken = take_apart([row] * 9)
+    assert taken.names == names and len(taken.lines[0].split(";")) == len(names)
 
 
 def test_other_tables_are_left_alone() -> None:
