@@ -4,22 +4,30 @@ import json
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import islice
+from itertools import islice, pairwise
 from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
 
+from motor_identification.logs.columns.heading import read_heading
+from motor_identification.logs.columns.names.words import split_words
+from motor_identification.logs.columns.vocabulary import Quantity, words_of
 from motor_identification.logs.csv.dialect import read_text
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.formats.json_lines import MOST_NAMES, flatten_members
+from motor_identification.logs.rows.parts import MOST_RUNS
 from motor_model.errors import RecordingError
 
 Columns: TypeAlias = "dict[str, list[Any]]"
 RUN = "run in the file"  # the column by which the runs of one list are split
 FEWEST_ROWS = 5  # of a run: of fewer, members are a vector's
+MOST_NAMED = 4  # channels in a sentence
 DEEPEST = 4  # lists and objects around a table
-MOST_TABLES = 1000  # that are looked at in one document
+MOST_TABLES = 100_000  # that are looked at in one document
+NEXT = 2.0  # rows' lengths from one member of a list to the next at most, where these are one recording's batches
+_RUNS = words_of("run runs trial trials test tests experiment experiments recording recordings session sessions")
+_MOTORS = words_of("motor motors axis axes joint joints wheel wheels actuator actuators drive drives")
 _NAMES = ("columns", "names", "header", "headers", "fields", "labels", "keys")  # of the columns, beside rows
 
 
@@ -40,6 +48,12 @@ class _Found:
     def rows(self) -> int:
         """Rows of it."""
         return len(next(iter(self.columns.values())))
+
+    @property
+    def list_words(self) -> frozenset[str]:
+        """The words of the name of the list that it is in."""
+        names = [one for one, inner in pairwise(self.path) if isinstance(one, str) and isinstance(inner, int)]
+        return frozenset(split_words(names[-1])) if names else frozenset()
 
     def is_run_beside(self, other: "_Found") -> bool:
         """Whether both are members of one list, and have the same columns."""
@@ -77,24 +91,74 @@ def read_json_table(path: Path) -> Table:
         raise RecordingError(f"{path} is JSON without a table of samples: export it as CSV.")
     best = max(found, key=lambda one: one.size)  # the first of them
     beside = [one for one in found if one.is_run_beside(best)]
-    runs = [one for one in beside if one.rows >= FEWEST_ROWS] or [best]
-    others = sum(set(one.columns) == set(best.columns) for one in found) - max(len(beside), 1)
+    same = {one.path for one in found if set(one.columns) == set(best.columns)}  # one may be found in two ways
+    others = len(same) - max(len(beside), 1)
+    if _are_channels(beside):
+        raise RecordingError(
+            f"{path} has a list of channels ({', '.join(one.called for one in beside[:MOST_NAMED])}), and no table in "
+            "which the voltage and the motion have a column each: export it as CSV."
+        )
+    batches = len(beside) > 1 and _go_on(beside)
+    runs = beside if batches else [one for one in beside if one.rows >= FEWEST_ROWS] or [best]
+    if len(runs) > MOST_RUNS and not batches:
+        raise RecordingError(
+            f"{path} has a list of {len(runs)} tables, whose times do not go on from one to the next: as runs they "
+            f"are too many (at most {MOST_RUNS}). Make one table of those that are of one recording."
+        )
     cells = {name: [_as_cell(value) for run in runs for value in run.columns[name]] for name in best.columns}
-    if len(runs) > 1:
+    if len(runs) > 1 and not batches:
         labels = [f"{run.called or 'run'} {number}" for number, run in enumerate(runs, start=1)]
         cells[RUN] = [label for label, run in zip(labels, runs, strict=True) for _ in range(run.rows)]
     rows = sum(run.rows for run in runs)
     as_texts = {name: np.array(column, np.str_) for name, column in cells.items()}
-    return Table(path, np.arange(1, rows + 1), as_texts, notes=_say_left_out(runs, len(beside), others))
+    said = _say_list(runs, batches) if len(runs) > 1 else []
+    return Table(path, np.arange(1, rows + 1), as_texts, notes=(*said, *_say_left_out(len(beside) - len(runs), others)))
 
 
-def _say_left_out(runs: Sequence[_Found], beside: int, others: int) -> tuple[str, ...]:
-    """Say how many runs there are, and which tables of the same columns are not read."""
+def _go_on(members: Sequence[_Found]) -> bool:
+    """Whether times go on from one member of a list to the next by a row: batches of one recording.
+
+    Where the list's name, or a text of their own, tells that they are runs, they are.
+    """
+    if members[0].list_words & _RUNS or len({one.called for one in members}) > 1:
+        return False
+    name = next((one for one in members[0].columns if read_heading(one).quantity is Quantity.TIME), "")
+    try:
+        times = [np.array(one.columns[name], np.float64) for one in members] if name else []
+    except (TypeError, ValueError):  # times of day
+        return False
+    if not times:
+        return False
+    within = np.concatenate([np.diff(one) for one in times])
+    between = np.array([after[0] - before[-1] for before, after in pairwise(times)])
+    rise = bool(np.all(within >= 0.0) and np.all(between >= 0.0))
+    return rise and 0.0 < np.median(between) <= NEXT * np.median(within)
+
+
+def _are_channels(members: Sequence[_Found]) -> bool:
+    """Whether the members of a list are columns rather than tables: values, named as different quantities."""
+    told = {read_heading(one.called).quantity for one in members} - {None, Quantity.OTHER}
+    values = [one for one in members[0].columns if read_heading(one).quantity is None] if members else []
+    return len(told) > 1 and len(members[0].columns) == 2 and bool(values)
+
+
+def _say_list(members: Sequence[_Found], batches: bool) -> list[str]:
+    """Say as what the members of a list are read."""
+    number = len(members)
+    if batches:
+        return [f"The file has a list of {number} tables, whose times go on from one to the next: one recording."]
+    said = [f"The file has a list of {number} runs: a bag each (otherwise: --split)."]
+    sides = [read_heading(one.called).side for one in members]
+    if members[0].list_words & _MOTORS or (all(sides) and len(set(sides)) > 1):
+        said.append("Caution: by their name they may be different motors: identify each bag alone, then.")
+    return said
+
+
+def _say_left_out(few: int, others: int) -> tuple[str, ...]:
+    """Say which tables of the same columns are not read: those of few rows in the list, and those elsewhere."""
     said = []
-    if len(runs) > 1:
-        said.append(f"The file has a list of {len(runs)} runs: a bag each (otherwise: --split).")
-    if beside > len(runs):
-        said.append(f"Left out: {beside - len(runs)} of the list, of fewer than {FEWEST_ROWS} rows.")
+    if few > 0:
+        said.append(f"Left out: {few} of the list, of fewer than {FEWEST_ROWS} rows.")
     if others > 0:
         number = "1 more table" if others == 1 else f"{others} more tables"
         said.append(f"Left out: {number} of the same columns (the largest is read): give each in a file of its own.")

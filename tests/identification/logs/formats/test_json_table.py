@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from motor_identification.logs.columns.said import Said
-from motor_identification.logs.formats.json_table import DEEPEST, read_json_table
+from motor_identification.logs.formats.json_table import DEEPEST, FEWEST_ROWS, NEXT, RUN, read_json_table
 from motor_identification.logs.formats.source import read_source
 from motor_identification.logs.imported import import_log
+from motor_identification.logs.rows.parts import MOST_RUNS
 from motor_model.errors import RecordingError
 
 TIME = np.round(np.arange(200) * 0.02, 3)
@@ -129,3 +130,91 @@ def test_what_of_the_same_columns_is_not_read_is_said(tmp_path: Path) -> None:
     assert len(few) == 200 and few.names == NAMES and few.notes[0].startswith("Left out: 1 of the list")
     few = read_json_table(write(tmp_path, [COLUMNS, stub, COLUMNS]))
     assert len(few) == 400 and few.notes[1] == "Left out: 1 of the list, of fewer than 5 rows."
+
+
+def batches(rows: int, pause: float = 1.0) -> list[dict[str, list[float]]]:
+    """The log in tables of so many rows, each behind a pause in lengths of rows."""
+    found = []
+    for number, at in enumerate(range(0, 200, rows)):
+        times = TIME[at : at + rows] + number * 0.02 * (pause - 1.0)
+        found.append(
+            {"time": times.tolist(), "voltage": VOLTS[at : at + rows].tolist(), "rpm": SPEED[at : at + rows].tolist()}
+        )
+    return found
+
+
+@pytest.mark.parametrize("rows", [40, FEWEST_ROWS - 1])
+@pytest.mark.parametrize("around", [lambda members: members, lambda members: {"packets": members}])
+def test_batches_whose_times_go_on_are_one_recording(tmp_path: Path, rows: int, around: Any) -> None:
+    table = read_json_table(write(tmp_path, around(batches(rows))))
+    assert table.names == NAMES and table.numbers("time").tolist() == TIME.tolist()
+    assert table.notes == (
+        f"The file has a list of {200 // rows} tables, whose times go on from one to the next: one recording.",
+    )
+
+
+@pytest.mark.parametrize(("pause", "one"), [(0.95 * NEXT, True), (1.05 * NEXT, False), (-1.0, False)])
+def test_times_that_go_on_do_so_by_about_a_row(tmp_path: Path, pause: float, one: bool) -> None:
+    assert (RUN not in read_json_table(write(tmp_path, batches(40, pause))).names) == one
+
+
+def test_what_is_called_a_run_is_one_however_its_times_go_on(tmp_path: Path) -> None:
+    for members in (
+        {"trials": batches(100)},
+        [{"type": kind, **one} for kind, one in zip(("step", "chirp"), batches(100), strict=True)],
+        [{name: one[name] for name in ("voltage", "rpm")} for one in batches(100)],  # without times nothing tells
+        [{**one, "time": [f"12:00:{time:06.3f}" for time in one["time"]]} for one in batches(100)],
+    ):
+        table = read_json_table(write(tmp_path, members))
+        assert RUN in table.names and table.notes == (
+            "The file has a list of 2 runs: a bag each (otherwise: --split).",
+        )
+    same = [{"board": "A", **one} for one in batches(100)]
+    assert RUN not in read_json_table(write(tmp_path, same)).names
+
+
+def test_more_tables_than_a_log_has_runs_are_told_and_batches_are_not_too_many(tmp_path: Path) -> None:
+    few = {name: column[:FEWEST_ROWS] for name, column in COLUMNS.items()}
+    assert len(read_json_table(write(tmp_path, [few] * MOST_RUNS))) == MOST_RUNS * FEWEST_ROWS
+    with pytest.raises(
+        RecordingError, match="has a list of 1001 tables, whose times do not go on from one to the next"
+    ):
+        read_json_table(write(tmp_path, [few] * (MOST_RUNS + 1)))
+    on = [{"time": [0.2 * k, 0.2 * k + 0.1], "u": [k % 7, 1], "rpm": [k, k]} for k in range(MOST_RUNS + 1)]
+    assert len(read_json_table(write(tmp_path, on))) == 2 * MOST_RUNS + 2
+
+
+@pytest.mark.parametrize(
+    ("document", "motors"),
+    [
+        ({"motors": [{"name": "a", **COLUMNS}, {"name": "b", **COLUMNS}]}, True),
+        ({"motors": [{"name": "a", "samples": OBJECTS}, {"name": "b", "samples": OBJECTS}]}, True),
+        ([{"name": "left", **COLUMNS}, {"name": "right", **COLUMNS}], True),
+        ({"motor": {"runs": [{"name": "a", **COLUMNS}, {"name": "b", **COLUMNS}]}}, False),
+        ([{"name": "left", **COLUMNS}, {"name": "left", **COLUMNS}], False),
+    ],
+)
+def test_members_that_may_be_motors_are_said_to_be(tmp_path: Path, document: Any, motors: bool) -> None:
+    notes = read_json_table(write(tmp_path, document)).notes
+    assert any("may be different motors: identify each bag alone" in line for line in notes) == motors
+
+
+def test_channels_are_no_runs(tmp_path: Path) -> None:
+    voltage = {"name": "voltage [V]", "time": COLUMNS["time"], "value": COLUMNS["voltage"]}
+    speed = {"name": "speed [rpm]", "time": COLUMNS["time"], "value": COLUMNS["rpm"]}
+    with pytest.raises(RecordingError, match=r"has a list of channels \(voltage \[V\], speed \[rpm\]\)"):
+        read_json_table(write(tmp_path, {"series": [voltage, speed]}))
+    assert RUN in read_json_table(write(tmp_path, [speed, speed])).names
+    steps = [{"name": name, "time": COLUMNS["time"], "rpm": COLUMNS["rpm"]} for name in ("voltage 5", "speed 3")]
+    assert RUN in read_json_table(write(tmp_path, steps)).names  # their column tells what it is
+
+
+def test_runs_are_members_of_one_list_with_the_same_columns(tmp_path: Path) -> None:
+    other = {"time": COLUMNS["time"][:50], "position": COLUMNS["rpm"][:50]}
+    assert read_json_table(write(tmp_path, [COLUMNS, other])).names == NAMES
+    table = read_json_table(write(tmp_path, {"a": COLUMNS, "b": COLUMNS}))  # of an object
+    assert table.names == NAMES and len(table) == 200 and "Left out: 1 more table" in table.notes[0]
+    apart = {"a": [COLUMNS, COLUMNS], "b": [COLUMNS]}  # of another list
+    assert len(read_json_table(write(tmp_path, apart))) == 400
+    named = read_json_table(write(tmp_path, {"columns": NAMES, "data": OBJECTS}))  # names beside rows that have them
+    assert named.names == NAMES and len(named) == 200 and named.notes == ()
