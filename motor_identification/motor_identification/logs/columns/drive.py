@@ -31,6 +31,7 @@ HUNDRED = 100.0  # all that per cent go to, and what people write to a PWM of 8 
 _EFFORTS = words_of("effort esforço esforco esfuerzo")  # a share by its name alone: a control effort is a command
 _CONTROLLERS = words_of("control controle contrôle controller")
 _SHORTEST_PULSE = 400.0  # [µs] that any servo or ESC of usual pulses gets; 0 is none
+_STRAY = 0.05  # of the rows with a pulse, whose numbers may be others: a mark of a lost signal
 _PULSES = (1_000.0, 2_500.0)  # [µs] the longest of a log, of which none is a share of the supply
 _SUPPLIES = (15.0, 18.0, 24.0, 36.0, 48.0)  # [V] where commands are cut off
 _MOST_VOLTS = 12.0  # of a command that never is larger: a duty of so few per cent, or of 255, moves no motor
@@ -92,10 +93,10 @@ def duty_drive(heading: Heading, values: Floats, full: float | None = None) -> D
     largest = float(np.max(np.abs(values), initial=0.0))
     if is_pulse(heading.words, heading.unit) and _PULSES[0] <= largest <= _PULSES[1]:
         whose = "a servo's" if "servo" in heading.words else "an ESC's"
-        least = float(np.min(np.abs(values[values != 0.0])))
-        if least < _SHORTEST_PULSE:
+        pulses = np.sort(np.abs(values[values != 0.0]))
+        if pulses[int(_STRAY * len(pulses))] < _SHORTEST_PULSE:
             digital = "as digital commands do (of DSHOT: --full-duty 2047 and --supply-voltage V)"
-            return Drive(None, f"goes from {least:g} to {largest:g}, no pulse in µs but {digital}", sure=False)
+            return Drive(None, f"goes from {pulses[0]:g} to {largest:g}, no pulse in µs but {digital}", sure=False)
         return Drive(None, f"is {whose} pulse in µs and no duty, as it is 1000 or 1500 at 0 V", sure=False)
     if heading.unit == "%" and (largest > 1.0 or not np.any(values % 1.0)):
         return Drive(None, "as a duty in %", 100.0)

@@ -168,6 +168,13 @@ def test_what_is_shorter_than_any_pulse_is_an_escs_digital_command(least: float,
     assert pulse or drive.why.startswith("goes from 45 to 1796, no pulse in µs but as digital commands do (of DSHOT:")
 
 
+@pytest.mark.parametrize(("rows", "pulse"), [(3, True), (4, True), (6, False)])
+def test_a_few_marks_of_a_lost_signal_make_no_digital_commands_of_pulses(rows: int, pulse: bool) -> None:
+    values = np.concatenate([np.zeros(50), np.full(rows, 1.0), np.linspace(1000.0, 1900.0, 100 - rows)])
+    drive = duty_drive(read_heading("ESC signal"), values)
+    assert ("ESC's pulse in µs" in drive.why) == pulse and not drive.sure
+
+
 @pytest.mark.parametrize(("largest", "pulse"), [(1994.0, True), (999.0, False), (2501.0, False)])
 def test_a_servo_gets_pulses_and_no_duty_of_twelve_bits(largest: float, pulse: bool) -> None:
     drive = duty_drive(read_heading("Servo 3 (µs)"), np.array([900.0, largest]))
