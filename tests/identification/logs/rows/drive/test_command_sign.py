@@ -15,6 +15,7 @@ from motor_identification.logs.rows.drive.command_sign import (
     AT_SPEED,
     BEHIND,
     FEWEST_TURNS,
+    MOSTLY,
     take_off_commands_sign,
     take_off_commands_sign_of_speeds,
 )
@@ -118,6 +119,45 @@ def test_few_rows_in_a_long_log_that_turn_on_against_the_voltage_are_a_motors_ow
 def test_a_few_turns_tell_nothing(turns: int, told: bool) -> None:
     volts = np.where(np.arange(600) * (turns + 1) // 600 % 2, -4.0, 4.0)
     assert (take_off_commands_sign(signed(volts, turn(volts, 0.5))) is not None) is told
+
+
+def braked(turns: int, brakes: int, late: int = 0, halts: bool = False) -> Signals:
+    """One channel with the command's sign, a row late at the first `late` turns, braked for a row now and then.
+
+    A brake is two changes of the voltage at speed, or one where the motor halts for a row behind it.
+    """
+    rows = 2400
+    volts = np.where(np.arange(rows) * (turns + 1) // rows % 2, -4.0, 4.0)
+    bare = counted(volts, turn(volts, 0.5))
+    way = np.append(0.0, np.sign(volts)[:-1])
+    for back in np.flatnonzero(way[2:] * way[1:-1] < 0.0)[:late] + 2:
+        way[back] *= -1.0
+    steps = way * np.diff(bare.motion, prepend=0.0)
+    driven = volts.copy()
+    at = np.arange(1, brakes + 1) * rows // (turns + 1) - 90
+    driven[at] *= -1.0
+    if halts:
+        steps[at + 2] = 0.0
+    return replace(bare, voltage=driven, motion=np.cumsum(steps))
+
+
+@pytest.mark.parametrize(("brakes", "told"), [(2, True), (3, False)])
+def test_the_counts_go_back_at_most_of_the_turns(brakes: int, told: bool) -> None:
+    """Behind six turns and two brakes they do at 6 of 10 changes, behind three at 6 of 12."""
+    assert 6 / (6 + 2 * 3) <= MOSTLY < 6 / (6 + 2 * 2)
+    assert (take_off_commands_sign(braked(6, brakes)) is not None) is told
+
+
+@pytest.mark.parametrize(("turns", "told"), [(FEWEST_TURNS - 1, False), (FEWEST_TURNS, True)])
+def test_few_turns_at_which_the_counts_go_back_tell_nothing(turns: int, told: bool) -> None:
+    """One brake more makes three changes of the voltage's sign of two."""
+    assert (take_off_commands_sign(braked(turns, 1, halts=True)) is not None) is told
+
+
+@pytest.mark.parametrize("late", [0, 3])
+def test_counts_may_go_back_a_row_behind_the_voltage(late: int) -> None:
+    """As they do where edges came between the sign and the row; the turns are the same."""
+    assert take_off_commands_sign(braked(6, 0, late)) is not None
 
 
 @pytest.mark.parametrize(("share", "told"), [(AT_SPEED, True), (0.8, True), (1.0, False)])
