@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from motor_identification.logs.columns.guess import guess_forms
-from motor_identification.logs.columns.said import Said
+from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.csv.reader import read_table
 from motor_identification.logs.form import CsvForm, Kind
 from motor_model.errors import RecordingError
@@ -224,3 +224,12 @@ def test_an_axis_that_is_not_driven_but_moves_is_one(tmp_path: Path) -> None:
     rows = [f"{0.02 * k:.2f},0,{k % 5}.5,{k // 20 % 2},{k % 7}.5" for k in range(120)]
     (tmp_path / "log.csv").write_text("\n".join(["t [s],a_effort,a_position,b_effort,b_position", *rows]))
     assert len(guess_forms(read_table(tmp_path / "log.csv"), Said(supply_voltage=12.0, unit="rad")).forms) == 2
+
+
+def test_motors_that_the_user_names_are_not_left_out_where_they_stand(tmp_path: Path) -> None:
+    rows = [f"{0.02 * k:.2f},0,7,{k // 20 % 2},{k % 7}.5" for k in range(120)]
+    (tmp_path / "log.csv").write_text("\n".join(["t [s],a_effort,a_position,b_effort,b_position", *rows]))
+    both = (Pair("a", "a_effort", "a_position"), Pair("b", "b_effort", "b_position"))
+    guess = guess_forms(read_table(tmp_path / "log.csv"), Said(motors=both, supply_voltage=12.0, unit="rad"))
+    assert [form.motion for form in guess.forms] == ["a_position", "b_position"]
+    assert not any("Left out" in line for line in guess.findings)
