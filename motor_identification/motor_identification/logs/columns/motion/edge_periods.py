@@ -11,6 +11,7 @@ from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.motion.direction import BACKWARD, NEITHER, WORDS, is_backward
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.columns.vocabulary import MOVES, Quantity, words_of
+from motor_identification.logs.correlation import correlate
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import TIME_UNITS, Kind
 from motor_model.errors import RecordingError
@@ -22,6 +23,8 @@ OF_EDGES = words_of("edge edges pulse pulses tick ticks encoder enc hall speed m
 EDGES = words_of("edge edges pulse pulses encoder enc hall capture")  # of no program's own loop
 OF_ROWS = words_of("sample sampling loop cycle row control pwm")  # whose periods are no motion
 AS_ROWS, MOSTLY = 0.02, 0.8  # relative: periods that are so near to the times from row to row, in most rows, are those
+GOES_WITH = 0.2  # correlation of 1 / period with |drive|, of a motor at least where a row is an edge; of a loop it is 0
+CHANGES = 1.25  # where the drive stays: of the 5th of 100 parts of 1 / period, that the 95th is at least
 EVERY = 0.99  # of the rows: then each is an edge
 
 
@@ -46,7 +49,7 @@ def read_edge_periods(table: Table, said: Said) -> tuple[Table, Said]:
     if not np.ptp(period) > 0.0 or not _has_clock(headings, said):
         return table, said
     as_rows = _share_of_rows(table, headings, np.abs(period) * _seconds(heading), said)
-    if as_rows > MOSTLY and not _is_said(heading, said):
+    if as_rows > MOSTLY and not (said.motion or (_is_said(heading, said) and _moves(table, headings, period))):
         return table, said
     if as_rows > EVERY:
         return _count_rows(table, headings, heading, said, period)
@@ -99,8 +102,23 @@ def _seconds(heading: Heading) -> float:
 
 
 def _is_said(heading: Heading, said: Said) -> bool:
-    """Whether the user, or a name, says that times are those between edges: of a row an edge, rows are as long."""
-    return bool(said.motion or said.edges_per_revolution or set(heading.words) & EDGES)
+    """Whether an encoder's edges, or a name, say that times are those between edges, though rows are as long."""
+    return bool(said.edges_per_revolution or set(heading.words) & EDGES)
+
+
+def _moves(table: Table, headings: list[Heading], period: Floats) -> bool:
+    """Whether 1 / period, shape (K,), goes with the drive, as that of no loop does; by much, where no drive changes."""
+    turning = period != 0.0
+    speed = 1.0 / np.abs(period[turning])
+    driving = [one.name for one in headings if drives(one)]
+    try:
+        drive = np.abs(table.numbers(driving[0])[turning]) if len(driving) == 1 else np.zeros(1)
+    except RecordingError:  # told by whoever reads it
+        return True
+    if np.ptp(drive) > 0.0:
+        return correlate(drive, speed) > GOES_WITH
+    low, high = np.quantile(speed, (0.05, 0.95))
+    return bool(high > CHANGES * low)
 
 
 def _clocks(headings: list[Heading], said: Said) -> list[Heading]:

@@ -7,7 +7,7 @@ import pytest
 from log_columns import DRIVE, TIME, columns
 
 from motor_identification.logs.columns.heading import read_heading
-from motor_identification.logs.columns.motion.edge_periods import is_edge_period, read_edge_periods
+from motor_identification.logs.columns.motion.edge_periods import CHANGES, GOES_WITH, is_edge_period, read_edge_periods
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.form import Kind
 
@@ -138,6 +138,31 @@ def test_of_a_row_an_edge_the_times_between_rows_are_those_between_edges(
     if is_speed:
         assert np.array_equal(table.numbers(COUNTED), np.arange(200)) and read_heading(COUNTED).unit == "count"
         assert read_as.motion == (COUNTED if said.motion else None) and read_as.kind is None
+
+
+def of_rows(rows: np.ndarray[Any, Any], said: Said = UNSAID, **drive: np.ndarray[Any, Any]) -> bool:
+    """Whether times [s] from row to row, by the name of an encoder's, are read as those of edges."""
+    time = np.cumsum(np.append(0.0, rows[1:]))
+    table, _ = read_edge_periods(columns(t_s=time, enc_period_us=1e6 * rows, **drive), said)
+    return COUNTED in table.names
+
+
+@pytest.mark.parametrize(("part", "moves"), [(0.5 * GOES_WITH, False), (2.0 * GOES_WITH, True)])
+def test_a_loops_period_does_not_go_with_the_drive_whatever_its_name(part: float, moves: bool) -> None:
+    """It was said to be a speed, of the time between two readings of an encoder."""
+    drive = np.abs(DRIVE) - np.mean(np.abs(DRIVE))
+    noise = np.random.default_rng(2).standard_normal(200)
+    noise -= np.mean(noise) + drive * (drive @ noise) / (drive @ drive)
+    mixed = part * drive / np.std(drive) + np.sqrt(1.0 - part**2) * noise / np.std(noise)
+    assert of_rows(1.0 / (100.0 + mixed), u=DRIVE) is moves
+    assert of_rows(1.0 / (100.0 + mixed), Said(edges_per_revolution=96), u=DRIVE) is moves
+    assert of_rows(1.0 / (100.0 + mixed), Said(motion="enc_period_us", kind=Kind.SPEED), u=DRIVE)  # as the user says
+
+
+@pytest.mark.parametrize(("most", "moves"), [(CHANGES * 1.1, True), (CHANGES * 0.95, False)])
+def test_under_one_voltage_a_motors_edges_come_sooner_and_sooner(most: float, moves: bool) -> None:
+    speed = np.repeat([100.0, 100.0 * most], 100)
+    assert of_rows(1.0 / speed, u=np.full(200, 6.0)) is moves and of_rows(1.0 / speed) is moves
 
 
 @pytest.mark.parametrize(("share", "is_count"), [(0.995, True), (0.98, False)])
