@@ -22,23 +22,27 @@ def test_noise_leaves_its_variance_for_every_row_to_spare() -> None:
 STEP = 0.7  # [rad/s] of one count in a row of 10 ms
 
 
-def make_jerky_speeds(time_constant: float = 0.1) -> np.ndarray:
-    """Speeds [rad/s] at 1 kHz of a motor that is told another one every 1.2 s, up to 60 of the steps."""
-    random, time = np.random.default_rng(5), np.arange(120_000) * 1e-3
-    wanted = np.repeat(random.uniform(0.0, 60.0 * STEP, 100), 1200)
-    speed = np.zeros(len(time))
-    for k in range(1, len(time)):
-        speed[k] = speed[k - 1] + (wanted[k] - speed[k - 1]) * 1e-3 / time_constant
-    return speed
+def make_travel(most: float, hold: float) -> np.ndarray:
+    """Travel in counts at 100 Hz of a motor of 0.1 s that is told another speed, up to so many a row, ever so often."""
+    random, count = np.random.default_rng(5), round(hold / 1e-3)
+    speed, travel = 0.0, [0.0]
+    for wanted in random.uniform(-most, most, round(120.0 / hold)):
+        for _ in range(count):
+            speed += (wanted - speed) * 1e-3 / 0.1
+            travel.append(travel[-1] + 0.1 * speed)
+    return np.array(travel[::10])
 
 
-def test_counts_of_a_quick_motor_stay_a_position_where_it_is_even() -> None:
-    """Where it gains speed they are no parabola: counts were taken for a converter's steps, and white noise."""
-    speed = make_jerky_speeds()
-    position = np.cumsum(speed)[::10] * 1e-3 / (STEP * 0.01)
-    counts = STEP * np.diff(np.floor(position))
-    assert 0.01 < measure_summed(counts, STEP) < 0.12
-    noise = np.random.default_rng(6).standard_normal(len(counts))
-    noisy = STEP * np.round(np.diff(position) + 1.3 * noise)
-    assert 0.4 < measure_summed(noisy, STEP) < 1.0
-    assert measure_summed(counts[: LEAST_WINDOWS + WINDOW], STEP) == 0.0  # too few tell nothing
+def test_counts_stay_a_position_and_noise_walks_away() -> None:
+    travel = make_travel(60.0, 1.2)
+    noise = np.random.default_rng(6).standard_normal(len(travel) - 1)
+    counts, noisy = np.diff(np.floor(travel)), np.round(np.diff(travel) + 1.3 * noise)
+    assert 0.01 < measure_summed(STEP * counts, STEP) < 0.12
+    assert 0.4 < measure_summed(STEP * noisy, STEP) < 1.0
+    assert measure_summed(STEP * counts[: LEAST_WINDOWS + WINDOW], STEP) == 0.0  # too few tell nothing
+
+
+def test_counts_of_a_motor_that_always_gains_speed_tell_nothing() -> None:
+    """They are no parabola there: they were taken for a converter's steps, behind white noise."""
+    counts = np.diff(np.floor(make_travel(600.0, 0.3)))
+    assert measure_summed(STEP * counts, STEP) == 0.0
