@@ -129,10 +129,11 @@ def _go_on(members: Sequence[_Found]) -> bool:
         return False
     if not times:
         return False
-    within = np.concatenate([np.diff(one) for one in times])
-    between = np.array([after[0] - before[-1] for before, after in pairwise(times)])
-    rise = bool(np.all(within >= 0.0) and np.all(between >= 0.0))
-    return rise and 0.0 < np.median(between) <= NEXT * np.median(within)
+    with np.errstate(over="ignore", invalid="ignore"):  # a damaged cell may be any number
+        within = np.concatenate([np.diff(one) for one in times])
+        between = np.array([after[0] - before[-1] for before, after in pairwise(times)])
+        rise = bool(np.all(within >= 0.0) and np.all(between >= 0.0))
+        return rise and bool(0.0 < np.median(between) <= NEXT * np.median(within))
 
 
 def _are_channels(members: Sequence[_Found]) -> bool:

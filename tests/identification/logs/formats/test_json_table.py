@@ -218,3 +218,9 @@ def test_runs_are_members_of_one_list_with_the_same_columns(tmp_path: Path) -> N
     assert len(read_json_table(write(tmp_path, apart))) == 400
     named = read_json_table(write(tmp_path, {"columns": NAMES, "data": OBJECTS}))  # names beside rows that have them
     assert named.names == NAMES and len(named) == 200 and named.notes == ()
+
+
+@pytest.mark.filterwarnings("error")
+def test_times_of_any_size_do_not_go_on(tmp_path: Path) -> None:
+    huge = {"time": [-1.7e308, 1.7e308] * 3, "u": [1.0] * 6, "rpm": [2.0] * 6}
+    assert RUN in read_json_table(write(tmp_path, [huge, huge])).names

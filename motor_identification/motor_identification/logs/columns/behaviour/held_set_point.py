@@ -36,7 +36,7 @@ def holds_a_set_point(table: Table, pair: Pair, said: Said) -> bool:
         if target.quantity is not Quantity.REFERENCE or not is_numeric(table, name) or not _is_of(target, kind):
             continue
         values, size = table.numbers(name), _compare(target, said.unit or moves.unit)
-        if size and np.any(values) and share_of_changes(values) < STAYS and _follows(size * values, motion):
+        if size and np.any(values) and share_of_changes(values) < STAYS and _follows(values, motion, size):
             return True
     return False
 
@@ -71,7 +71,8 @@ def _compare(target: Heading, unit: str) -> float:
     return of_target / of_motion if of_target and of_motion else 0.0
 
 
-def _follows(target: Floats, motion: Floats) -> bool:
-    """Whether a motion (K,) mostly is about as large as its set point (K,), and goes its way, where that is not 0."""
+def _follows(target: Floats, motion: Floats, size: float) -> bool:
+    """Whether a motion (K,) mostly is about as large as its set point (K,) of a size, and goes its way."""
     told = target != 0.0
-    return bool(FOLLOWS <= np.median(motion[told] / target[told]) <= 1.0 / FOLLOWS)
+    with np.errstate(over="ignore", invalid="ignore"):  # a damaged cell may be any number
+        return bool(FOLLOWS <= np.median(motion[told] / target[told] / size) <= 1.0 / FOLLOWS)

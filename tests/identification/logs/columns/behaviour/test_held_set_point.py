@@ -90,3 +90,11 @@ def test_one_row_that_has_not_settled_is_enough(off: float, curve: bool) -> None
     speed = 10.0 * CURVE
     speed[ROWS // 2] -= off * float(np.ptp(speed))
     assert held("setpoint [rpm]", np.full(ROWS, 50.0), speed, CURVE) != curve
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("size", [1e-308, 1.7e308])
+def test_numbers_of_any_size_warn_of_nothing(size: float) -> None:
+    huge = np.where(np.arange(ROWS) % 2 == 0, size, -size)
+    assert not held("setpoint [rpm]", LEVELS, huge) and not held("setpoint [rpm]", np.full(ROWS, size))
+    assert not held("setpoint [rpm]", LEVELS, huge, huge)
