@@ -233,3 +233,11 @@ def test_motors_that_the_user_names_are_not_left_out_where_they_stand(tmp_path: 
     guess = guess_forms(read_table(tmp_path / "log.csv"), Said(motors=both, supply_voltage=12.0, unit="rad"))
     assert [form.motion for form in guess.forms] == ["a_position", "b_position"]
     assert not any("Left out" in line for line in guess.findings)
+
+
+@pytest.mark.parametrize("held", ["load_current_setpoint_A", "ref_voltage [V]", "speed limit setpoint", "target_rpm"])
+def test_a_static_curve_beside_what_is_held_is_one_of_steady_states(held: str, tmp_path: Path) -> None:
+    rows = [f"{2 * k},0.5,{1 + 0.2 * k:.2f},{10 + 4 * k}" for k in range(40)]
+    (tmp_path / "log.csv").write_text("\n".join([f"time_s,{held},voltage [V],speed [rad/s]", *rows]))
+    guess = guess_forms(read_table(tmp_path / "log.csv"), Said())
+    assert guess.forms[0].time is None and not any("Caution" in line for line in guess.findings)

@@ -85,7 +85,9 @@ def test_rows_that_have_settled_are_a_curve_whoever_gave_the_voltage() -> None:
     assert not held("setpoint [rpm]", np.full(ROWS, 50.0), 10.0 * CURVE, CURVE)
 
 
-@pytest.mark.parametrize(("off", "curve"), [(0.8 * OFF_CURVE, True), (1.3 * OFF_CURVE, False)])
+@pytest.mark.parametrize(
+    ("off", "curve"), [(0.05, True), (0.8 * OFF_CURVE, True), (1.3 * OFF_CURVE, False), (0.4, False)]
+)
 def test_one_row_that_has_not_settled_is_enough(off: float, curve: bool) -> None:
     speed = 10.0 * CURVE
     speed[ROWS // 2] -= off * float(np.ptp(speed))
