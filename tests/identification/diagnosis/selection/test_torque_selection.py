@@ -11,7 +11,7 @@ from stub_selections import selection_of, step_of
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
-from motor_identification.diagnosis.candidate_test import likelihood_threshold
+from motor_identification.diagnosis.candidate_test import likelihood_threshold, pair_threshold
 from motor_identification.diagnosis.selection import torque_selection as module
 from motor_identification.diagnosis.selection.selection import Selection
 from motor_identification.noise.error_model import ErrorModel
@@ -355,3 +355,28 @@ def test_a_torque_that_would_leave_more_than_is_left_stands_for_nothing(
     monkeypatch.setattr(Model, "noise_floor", 1.0)
     assert thresholds.RANDOM_GAP[0] == 0.75
     assert module._is_too_much(with_effects(stub_model(left), *kept), plain) is too_much
+
+
+@pytest.mark.parametrize(
+    ("gain", "gap", "disturbed", "taken"),
+    [
+        (1.01, 0.9, False, True),
+        (0.99, 0.9, False, False),  # by no more than chance gives two effects of a table
+        (1.01, 1.0, False, False),  # it leaves as much
+        (-1.0, 1.5, True, True),  # where a torque is, what is beside it is the result anyway
+    ],
+)
+def test_what_is_far_likelier_beside_a_torque_takes_the_place_of_what_was_found(
+    monkeypatch: pytest.MonkeyPatch, gain: float, gap: float, disturbed: bool, taken: bool
+) -> None:
+    """A limit of the voltage was found for a friction and a drag, which hid each other, and kv was 26 % large."""
+    start = stub_model(2.0)
+    plain = selection_of(
+        with_effects(stub_model(1.0), "voltage_limit"), step_of(stub_test("voltage_limit", start, 1.0, 50.0))
+    )
+    step = step_of(stub_test("quadratic_drag", start, gap, 50.0))
+    model = with_effects(stub_model(gap, 0.0, likelihood=gain * pair_threshold()), "coulomb_friction", "quadratic_drag")
+    beside = selection_of(model, step)
+    alike = selection_of(with_effects(stub_model(1.0), "voltage_limit"))
+    monkeypatch.setattr(module, "begin_beside_torque", lambda *rest: alike)
+    assert module._choose_more(beside, plain, disturbed) is (beside if taken else None)
