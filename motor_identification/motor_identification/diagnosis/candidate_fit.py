@@ -124,8 +124,8 @@ def refit_without(model: Model, effect: str, hold_out: HoldOut) -> Model:
     """Fit a model again without one effect, and without what there is only with it, from where it is.
 
     Beside a random torque the model is kept as it is without it, where that is likelier: a fit may leave the summit of
-    the likelihood that the rest of the model is on. Measured: beside friction and a ripple 191 of the 140 that spoke
-    for a warming-up were the friction's that was fitted with it, and 83 were left of those by the fit without.
+    the likelihood that the rest of the model is on. Measured: beside friction and a ripple a warming-up was likelier by
+    140; without it, as it was, that model was likelier by 191, and by 83 fitted again.
     """
     begin = drop_effect(model.estimate, effect)
     fitted = fit_speeds(begin) if model.learned is None else fit_beside_torque(begin, model.learned)

@@ -221,7 +221,7 @@ def _is_likelier_by_all(shaper: Shaper, instants: Timing, other: Timing) -> bool
     coasts where nobody drives it.
     """
     one, before = (shaper.fit(timing).residuals for timing in (instants, other))
-    return measure_gain(before, one) > 0.0 and _is_steady(one, before)
+    return _is_likelier_at_all(one, before)
 
 
 def _choose_instants(shaper: Shaper, slot: float) -> Timing:
@@ -282,7 +282,7 @@ def _beats(
     """
     timing, fitted = other
     if counted and timing is OTHERS[0]:
-        return measure_gain(fitted.residuals, residuals) > 0.0 and _is_steady(residuals, fitted.residuals)
+        return _is_likelier_at_all(residuals, fitted.residuals)
     return _is_likelier(residuals, fitted.residuals, gain_of_row)
 
 
@@ -293,6 +293,11 @@ def _are_open(recordings: Sequence[Recording]) -> bool:
 def _is_likelier(one: Floats, other: Floats, gain_of_row: float = LEAST_GAIN_OF_ROW) -> bool:
     """Decide whether one timing's residuals (I,) are much likelier than another's, and not by a few rows alone."""
     return measure_gain(other, one) > _find_least_gain(len(one), gain_of_row) and _is_steady(one, other)
+
+
+def _is_likelier_at_all(one: Floats, other: Floats) -> bool:
+    """Decide whether one timing's residuals (I,) are likelier than another's, by however little, not by a few rows."""
+    return measure_gain(other, one) > 0.0 and _is_steady(one, other)
 
 
 def _is_steady(one: Floats, other: Floats) -> bool:

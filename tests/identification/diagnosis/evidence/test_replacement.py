@@ -75,6 +75,19 @@ def test_a_few_moments_count_where_what_replaces_predicts_worse(times: float, fe
     assert find_loss(test, current) == (0.0 if few else 100.0)
 
 
+def make_few_moments() -> tuple[Model, Model]:
+    """A model that is likelier by 90 in three moments, and the other one, both beside a torque."""
+    moments = np.zeros(60)
+    moments[[7, 20, 41]] = 30.0
+
+    def model(likelihood: float, moments: Floats) -> Model:
+        score = Score(likelihood, moments=moments)
+        one = SimpleNamespace(likelihood=likelihood, held=SimpleNamespace(gap=1.0), score=score, beside_torque=True)
+        return cast(Model, one)
+
+    return model(90.0, moments), model(0.0, np.zeros(60))
+
+
 @pytest.mark.parametrize(
     ("effect", "held", "loss"),
     [
@@ -88,17 +101,9 @@ def test_what_holds_a_motor_speaks_in_few_moments(
     monkeypatch: pytest.MonkeyPatch, effect: str, held: bool, loss: float
 ) -> None:
     """A breakaway beside a coasting bridge, likelier by 82 in six of 120 moments, gave way to a load of 3 mV."""
-    moments = np.zeros(60)
-    moments[[7, 20, 41]] = 30.0
-
-    def model(likelihood: float, moments: Floats) -> Model:
-        score = Score(likelihood, moments=moments)
-        one = SimpleNamespace(likelihood=likelihood, held=SimpleNamespace(gap=1.0), score=score, beside_torque=True)
-        return cast(Model, one)
-
-    current = model(90.0, moments)
+    current, load = make_few_moments()
     monkeypatch.setattr(module, "was_held", lambda one: held and one is current)
-    test = CandidateTest("load_bias", current, model(0.0, np.zeros(60)))
+    test = CandidateTest("load_bias", current, load)
     assert find_loss(test, current, effect) == loss
 
 
@@ -106,15 +111,7 @@ def test_what_holds_a_motor_speaks_in_few_moments(
 def test_a_load_is_no_better_than_what_holds_a_motor_in_few_moments(
     monkeypatch: pytest.MonkeyPatch, effect: str, better: bool
 ) -> None:
-    moments = np.zeros(60)
-    moments[[7, 20, 41]] = 30.0
-
-    def model(likelihood: float, moments: Floats) -> Model:
-        score = Score(likelihood, moments=moments)
-        one = SimpleNamespace(likelihood=likelihood, held=SimpleNamespace(gap=1.0), score=score, beside_torque=True)
-        return cast(Model, one)
-
-    current = model(90.0, moments)
+    current, load = make_few_moments()
     monkeypatch.setattr(module, "was_held", lambda one: True)
     monkeypatch.setattr(module, "is_same_motion", lambda one, other: False)
-    assert is_better(CandidateTest("load_bias", current, model(0.0, np.zeros(60))), effect, current) is better
+    assert is_better(CandidateTest("load_bias", current, load), effect, current) is better
