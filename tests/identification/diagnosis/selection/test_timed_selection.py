@@ -105,6 +105,24 @@ def test_the_nearest_model_is_asked_for_the_timing_where_something_is_left(
     assert (begun[-1] is nearest) is (above and not complete and steps and told and not explained)
 
 
+def select_from_assumed(
+    monkeypatch: pytest.MonkeyPatch,
+    look: Callable[..., Any],
+    select: Callable[..., Any],
+    best: Any = None,
+    time: bool = True,
+) -> tuple[Any, Any]:
+    """What is selected where the timing is as assumed at first, and instants are all that is found otherwise."""
+    first = SimpleNamespace(selection=None, timing=None)
+    again = SimpleNamespace(selection=None, timing=OTHERS[0])
+    monkeypatch.setattr(timed_selection, "find_timing_beside", look)
+    monkeypatch.setattr(timed_selection, "select_in_time", select)
+    monkeypatch.setattr(timed_selection, "begin_as_timed", lambda one, timing, *_: again if timing else first)
+    limit = SimpleNamespace(begin_with=lambda _: None, begin_again=lambda: time, best=best)
+    reporter = SimpleNamespace(stopped=lambda: False, beyond=lambda _: None)
+    return select_as_timed(first, Request(), reporter, limit)  # type: ignore[arg-type]
+
+
 @pytest.mark.parametrize(
     ("effect", "told", "time", "gap", "taken"),
     [
@@ -125,16 +143,8 @@ def test_an_inductance_that_was_found_is_asked_for_the_timing(
         model = SimpleNamespace(held=held, above_floor=False, complete=True, effects=(effect,))
         return Selected(SimpleNamespace(model=model), (), finished=True)  # type: ignore[arg-type]
 
-    first = SimpleNamespace(selection=None, timing=None)
-    again = SimpleNamespace(selection=None, timing=OTHERS[0])
     look: Callable[..., Any] = lambda *_, lagging=False: OTHERS[0] if lagging and told else None  # noqa: E731
-    begin: Callable[..., Any] = lambda one, timing, *_: again if timing else first  # noqa: E731
-    monkeypatch.setattr(timed_selection, "find_timing_beside", look)
-    monkeypatch.setattr(timed_selection, "select_in_time", select)
-    monkeypatch.setattr(timed_selection, "begin_as_timed", begin)
-    limit = SimpleNamespace(begin_with=lambda _: None, begin_again=lambda: time, best=None)
-    reporter = SimpleNamespace(stopped=lambda: False, beyond=lambda _: None)
-    start, selected = select_as_timed(first, Request(), reporter, limit)  # type: ignore[arg-type]
+    start, selected = select_from_assumed(monkeypatch, look, select, time=time)
     assert start.timing == (OTHERS[0] if taken else None)
     assert selected.finished is time
 
@@ -200,15 +210,7 @@ def test_the_nearest_model_is_asked_too_where_it_halves_what_is_said_to_be_a_tor
         return SimpleNamespace(selection=SimpleNamespace(model=model), effects=named, finished=True)
 
     look: Callable[..., Any] = lambda first, one, **_: OTHERS[0] if one is nearest else None  # noqa: E731
-    again = SimpleNamespace(selection=None, timing=OTHERS[0])
-    first = SimpleNamespace(selection=None, timing=None)
-    begin: Callable[..., Any] = lambda one, timing, *_: again if timing else first  # noqa: E731
-    monkeypatch.setattr(timed_selection, "find_timing_beside", look)
-    monkeypatch.setattr(timed_selection, "select_in_time", select)
-    monkeypatch.setattr(timed_selection, "begin_as_timed", begin)
-    limit = SimpleNamespace(begin_with=lambda _: None, begin_again=lambda: True, best=nearest)
-    reporter = SimpleNamespace(stopped=lambda: False, beyond=lambda _: None)
-    start, _ = select_as_timed(first, Request(), reporter, limit)  # type: ignore[arg-type]
+    start, _ = select_from_assumed(monkeypatch, look, select, best=nearest)
     assert start.timing == (OTHERS[0] if taken else None)
 
 
