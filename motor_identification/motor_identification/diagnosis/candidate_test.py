@@ -56,14 +56,7 @@ class CandidateTest:
 
     @cached_property
     def _speaking(self) -> float:
-        """Share of the moments in which it can speak: what holds a motor shows where that stood, and starts.
-
-        And a lag where the command changes: of a staircase in one of many moments.
-        """
-        holds = EFFECT_BY_NAME[self.effect].holds and was_held(self.model)
-        if not holds and self.effect not in LAGS:
-            return 1.0
-        return measure_speaking(self.before.score.moments, self.model.score.moments)
+        return find_speaking(self.effect, self.model, self.before)
 
     @property
     def explains(self) -> float:
@@ -164,6 +157,16 @@ class CandidateTest:
         """Whether the model without it is at the sensor's floor already, in lasting intervals too."""
         before, after = self._join_lasting()
         return before.gap < thresholds.RELEVANT_GAP * after.floor(self.model.noise.share)
+
+
+def find_speaking(effect: str, model: Model, other: Model) -> float:
+    """Find the share of the moments in which an effect of a model can speak against another model without it.
+
+    What holds a motor shows where that stood, and starts; a lag where the command changes: of a staircase in one of
+    many moments.
+    """
+    holds = EFFECT_BY_NAME[effect].holds and was_held(model)
+    return measure_speaking(other.score.moments, model.score.moments) if holds or effect in LAGS else 1.0
 
 
 def share_explained(before: float, after: float, floor: float) -> float:

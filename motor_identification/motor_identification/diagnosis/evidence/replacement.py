@@ -4,11 +4,9 @@ from collections.abc import Sequence
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
-from motor_identification.diagnosis.candidate_test import CandidateTest, is_same_motion
+from motor_identification.diagnosis.candidate_test import CandidateTest, find_speaking, is_same_motion
 from motor_identification.diagnosis.effect_test import EFFECT_ORDER, count_parameters
-from motor_identification.diagnosis.evidence.standstill_evidence import was_held
-from motor_identification.diagnosis.evidence.torque_evidence import measure_speaking, measure_steadiness
-from motor_model.effects import EFFECT_BY_NAME
+from motor_identification.diagnosis.evidence.torque_evidence import measure_steadiness
 
 
 def choose_better(tests: Sequence[CandidateTest], effect: str, current: Model) -> CandidateTest | None:
@@ -34,16 +32,15 @@ def is_better(test: CandidateTest, effect: str, current: Model) -> bool:
     return find_loss(test, current, effect) < thresholds.RIVAL_MARGIN or is_same_motion(test.model, current)
 
 
-def find_loss(test: CandidateTest, current: Model, effect: str = "") -> float:
-    """Find what a test's model loses of log likelihood beside the current one, which has another effect instead.
+def find_loss(test: CandidateTest, current: Model, effect: str) -> float:
+    """Find what a test's model loses of log likelihood beside the current one, which has an effect instead.
 
-    Beside a random torque not counting the few moments that speak most against it, unless it predicts far worse: a
-    slow torque does in one moment what a load step does. effect: of the current model; what holds a motor speaks where
-    that stood, and starts. Measured: for a breakaway of 0.95 ± 0.05 V, likelier by 82, a load of 3 mV was put.
+    Beside a random torque not counting the few moments that speak most against it, of those in which the effect can,
+    unless it predicts far worse: a slow torque does in one moment what a load step does. Measured: for a breakaway of
+    0.95 ± 0.05 V, likelier by 82, a load of 3 mV was put.
     """
     loss = current.likelihood - test.model.likelihood
     if not current.beside_torque or test.model.held.gap > thresholds.WORSE_GAP * current.held.gap:
         return loss
-    before, after = test.model.score.moments, current.score.moments
-    holds = bool(effect) and EFFECT_BY_NAME[effect].holds and was_held(current)
-    return min(loss, measure_steadiness(before, after, measure_speaking(before, after) if holds else 1.0))
+    speaking = find_speaking(effect, current, test.model)
+    return min(loss, measure_steadiness(test.model.score.moments, current.score.moments, speaking))

@@ -18,7 +18,7 @@ def start_where_found(test: CandidateTest, step: SelectionStep, current: Model, 
 
     The torque that a model leaves without both is most of what they explain: from there a fit may end far away.
     """
-    alike = find_loss(test, current) < thresholds.RIVAL_MARGIN
+    alike = find_loss(test, current, step.found.effect) < thresholds.RIVAL_MARGIN
     if not current.beside_torque or test.effect not in step.rivals or alike:
         return test
     effects = set(test.model.effects)
@@ -35,7 +35,7 @@ def start_from_same_size(test: CandidateTest, effect: str, current: Model, hold_
 
     The model without both may be far from either: beside a random torque, or where a ripple follows what they do.
     """
-    if not both_hold(test.effect, effect) or find_loss(test, current) < thresholds.RIVAL_MARGIN:
+    if not both_hold(test.effect, effect) or find_loss(test, current, effect) < thresholds.RIVAL_MARGIN:
         return test
     again = fit_in_place(current, effect, test.effect, hold_out)
     return replace(test, model=again) if again.likelihood > test.model.likelihood else test

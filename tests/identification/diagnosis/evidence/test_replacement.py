@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from stub_models import rescored, stub_model, stub_test
 
-from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis import candidate_test, thresholds
 from motor_identification.diagnosis.candidate_model import Model, Score
 from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.evidence import replacement as module
@@ -72,7 +72,7 @@ def test_a_few_moments_count_where_what_replaces_predicts_worse(times: float, fe
 
     current = model(1.0, 100.0, moments)
     test = CandidateTest("load_bias", current, model(times * thresholds.WORSE_GAP, 0.0, np.zeros(60)))
-    assert find_loss(test, current) == (0.0 if few else 100.0)
+    assert find_loss(test, current, "quadratic_drag") == (0.0 if few else 100.0)
 
 
 def make_few_moments() -> tuple[Model, Model]:
@@ -94,7 +94,7 @@ def make_few_moments() -> tuple[Model, Model]:
         ("static_friction", True, 60.0),  # but for the best of the three in which it speaks
         ("static_friction", False, 0.0),  # the motor never stood under a voltage
         ("quadratic_drag", True, 0.0),
-        ("", True, 0.0),
+        ("transport_delay", False, 60.0),  # which speaks where the command changes
     ],
 )
 def test_what_holds_a_motor_speaks_in_few_moments(
@@ -102,7 +102,7 @@ def test_what_holds_a_motor_speaks_in_few_moments(
 ) -> None:
     """A breakaway beside a coasting bridge, likelier by 82 in six of 120 moments, gave way to a load of 3 mV."""
     current, load = make_few_moments()
-    monkeypatch.setattr(module, "was_held", lambda one: held and one is current)
+    monkeypatch.setattr(candidate_test, "was_held", lambda one: held and one is current)
     test = CandidateTest("load_bias", current, load)
     assert find_loss(test, current, effect) == loss
 
@@ -112,6 +112,6 @@ def test_a_load_is_no_better_than_what_holds_a_motor_in_few_moments(
     monkeypatch: pytest.MonkeyPatch, effect: str, better: bool
 ) -> None:
     current, load = make_few_moments()
-    monkeypatch.setattr(module, "was_held", lambda one: True)
+    monkeypatch.setattr(candidate_test, "was_held", lambda one: True)
     monkeypatch.setattr(module, "is_same_motion", lambda one, other: False)
     assert is_better(CandidateTest("load_bias", current, load), effect, current) is better

@@ -77,7 +77,7 @@ def test_a_rival_is_fitted_beside_a_torque_from_where_it_did_as_well_without(
     step = SelectionStep(before, found, (found, CandidateTest("coulomb_friction", before, plain)), rivals, 0.99)
     astray = with_effects(stub_model(1.0, likelihood=-loss), "coulomb_friction")
     current = replace(stub_model(1.0), learned=ErrorModel(0.0, 0.0, 0.1, 0.1) if beside else None)
-    monkeypatch.setattr(module, "find_loss", lambda test, model: loss)
+    monkeypatch.setattr(module, "find_loss", lambda test, model, effect: loss)
     monkeypatch.setattr(module, "refine_beside_torque", lambda model, hold_out, begin: (model.learned, begin, better))
     test = CandidateTest("coulomb_friction", before, astray)
     left = start_where_found(test, step, current, cast(HoldOut, None))
