@@ -13,6 +13,7 @@ from motor_model.sample import RANGES, Info, Measurement, Sample
 
 MOST_VOLTAGE = RANGES["max_voltage"][1]  # [V]
 MOST_SPEED = 1e9  # [rad/s]; what is larger makes squares that mean nothing
+STEADY_HOLD = 20.0  # [s] that a steady state is held for at least: any motor but the slowest has settled
 
 T = TypeVar("T")
 
@@ -59,6 +60,13 @@ class Recording:
         """[s] what the plant says of it, or the median of what it did."""
         return self.info.sample_period or float(np.median(np.diff(self.sample_time))) * 1e-9
 
+    @property
+    def has_steady_states(self) -> bool:
+        """Whether every sample is a steady state: a mean speed at the end of a voltage that was held for long."""
+        info = self.info
+        at_the_end = info.measurement is Measurement.SPEED and 0.0 < info.speed_window <= 0.25 * info.sample_period
+        return at_the_end and info.sample_period >= STEADY_HOLD
+
     def between(self, start: float, stop: float) -> "Recording":
         """The part from `start` to `stop` seconds after the first sample; 0, 0 is all of it.
 
@@ -95,6 +103,11 @@ class Recording:
             supply_voltage=self.supply_voltage[which],
             current=self.current[which],
         )
+
+
+def have_steady_states(recordings: Sequence[Recording]) -> bool:
+    """Tell whether recordings have nothing but steady states, which show nothing that takes time."""
+    return bool(recordings) and all(recording.has_steady_states for recording in recordings)
 
 
 def once(measure: Callable[[Recording], T]) -> Callable[[Recording], T]:

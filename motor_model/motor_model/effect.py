@@ -13,6 +13,7 @@ class Extent:
     duration: float  # [s] the longest
     sample: float = 0.005  # [s] the shortest sample period
     cycles: float = 48.0  # [1/rev of the encoder's shaft] of the finest ripple that can be told from its mirror image
+    steady: bool = False  # nothing but steady states, in which no motion is on its way
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +32,7 @@ class Scale:
 
 
 ABSOLUTE, DURATION = Scale(), Scale(duration=1)
+UNSEEN_BOX = 2.0  # high over low end of the box of what no recording shows
 MOST_CERTAIN_CYCLES = 2.0  # [1/rev of the encoder's shaft] that any disc shows
 
 
@@ -60,6 +62,7 @@ class ParameterSpec:
     usual: tuple[float, float] | None = None
     most_duration: float = inf
     of_encoder: bool = False  # the box ends where the encoder's view does (`Extent.cycles`)
+    of_motion: bool = False  # steady states do not show it: there the box is next to nothing, at its low end
 
     @property
     def is_instant(self) -> bool:
@@ -73,6 +76,8 @@ class ParameterSpec:
             low, high = min(low, self.usual[0]), max(high, self.usual[1])
         if self.of_encoder:
             high = max(extent.cycles, MOST_CERTAIN_CYCLES)
+        if self.of_motion and extent.steady:
+            return low, UNSEEN_BOX * low
         return low, min(high, self.most_duration * extent.duration)
 
 

@@ -24,7 +24,7 @@ TURN = Scale(speed=1, sample=1)
 BASE = (
     P("kv", "V·s/rad", 0.0, 0.1, 4.0, Scale(voltage=1, speed=-1), True),
     # ka = kv · time constant; 0.04 to 12,000 samples of it are searched: 0.2 ms to 60 s at 200 Hz.
-    P("ka", "V·s²/rad", 0.0, 0.04, 12_000.0, Scale(voltage=1, speed=-1, sample=1), True),
+    P("ka", "V·s²/rad", 0.0, 0.04, 12_000.0, Scale(voltage=1, speed=-1, sample=1), True, of_motion=True),
 )
 
 EFFECTS = (

@@ -8,7 +8,7 @@ from handmade import PERIOD, turning
 
 from motor_identification.recording import Recording, check, once, recording_of
 from motor_model.errors import RecordingError
-from motor_model.sample import Info, Sample
+from motor_model.sample import Info, Measurement, Sample
 
 GOOD = turning(lambda time: 700.0 * time, 1.0)
 
@@ -33,6 +33,24 @@ def test_samples_become_columns() -> None:
     assert recording.speed.tolist() == [0.0, 0.5, 1.0, 1.5] and recording.edge_count.tolist() == [0, 1, 2, 3]
     assert recording.sample_time.dtype == np.int64 and recording.notes == ("a note",)
     assert np.isnan(recording.current).all()
+
+
+@pytest.mark.parametrize(
+    ("period", "window", "measurement", "steady"),
+    [
+        (20.0, 1.0, Measurement.SPEED, True),
+        (20.0, 5.0, Measurement.SPEED, True),
+        (20.0, 5.01, Measurement.SPEED, False),  # most of the way there is in it
+        (20.0, 0.0, Measurement.SPEED, False),  # nobody said over what time
+        (19.9, 1.0, Measurement.SPEED, False),  # a large motor may be on its way yet
+        (20.0, 1.0, Measurement.COUNTS, False),
+    ],
+)
+def test_what_was_held_for_long_is_a_steady_state(
+    period: float, window: float, measurement: Measurement, steady: bool
+) -> None:
+    info = Info(sample_period=period, speed_window=window, measurement=measurement)
+    assert replace(GOOD, info=info).has_steady_states is steady
 
 
 def changed(**columns: object) -> Recording:

@@ -20,6 +20,7 @@ from motor_identification.diagnosis.fits.effect_fit import fit_with_effect
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.measurement.command_swing import has_one_size, is_sweep
 from motor_identification.periodic.periodic_fit import LOAD_OVER_ANGLE, add_load_once_a_turn
+from motor_identification.recording import have_steady_states
 from motor_identification.validation.held_out import HeldOut
 from motor_identification.validation.hold_out import HoldOut
 from motor_identification.validation.instants import (
@@ -44,7 +45,8 @@ def list_candidates(effects: Sequence[str], judged: HeldOut | None = None, besid
     angle: some instants, or some line, are found in any. Where a command's frequency goes one way, nothing that comes
     slowly: whatever depends on frequency does; nor in seconds, in which nothing has come. Where values have white noise
     and nothing is counted, as a tachogenerator's, there is no disc for anything to be on; and where rows of speeds are
-    uneven it does not show. What voltage a motor breaks away at is not seen under one voltage, at which it does.
+    uneven it does not show. What voltage a motor breaks away at is not seen under one voltage, at which it does. Steady
+    states show what is of a speed and a voltage, and nothing that takes time.
     """
     return [
         effect.name
@@ -64,6 +66,8 @@ def _can_be_judged(effect: Effect, judged: HeldOut, beside_torque: bool) -> bool
     if comes_slowly(effect.name) and judged.recordings and all(map(is_sweep, judged.recordings)):
         return False
     if is_over_too_soon(effect.name, judged):
+        return False
+    if not is_static(effect.name) and have_steady_states(judged.recordings):
         return False
     if not judged.seen or not (effect.anywhere or effect.periodic):
         return True

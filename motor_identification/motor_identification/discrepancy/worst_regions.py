@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from motor_identification.discrepancy.operating_conditions import OperatingConditions, find_conditions
-from motor_identification.recording import Bools, Floats
+from motor_identification.recording import Bools, Floats, have_steady_states
 from motor_identification.validation.held_out import HeldOut
 
 LEAST_CONTRAST = 0.05  # [nat] of contrast below which no region is worse than the rest
@@ -150,7 +150,7 @@ def _conditions(held: HeldOut, seen: OperatingConditions) -> Iterator[_Condition
     yield from _driven(seen, moving)
     for limit in SINCE_THRESHOLDS:
         yield _Condition("since", f"within {limit:g} s after a standstill or reversal", moving & (seen.since < limit))
-    for limit in choose_thresholds(seen.time):
+    for limit in () if have_steady_states(held.recordings) else choose_thresholds(seen.time):
         yield _Condition("time", f"at t > {limit:g} s", seen.time > limit)
         yield _Condition("time", f"at t < {limit:g} s", seen.time < limit)
     if len(held.recordings) > 1:

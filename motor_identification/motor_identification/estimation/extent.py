@@ -5,7 +5,7 @@ from math import inf, pi
 
 import numpy as np
 
-from motor_identification.recording import Floats, Recording, once
+from motor_identification.recording import Floats, Recording, have_steady_states, once
 from motor_identification.sensor.noisy_angle import find_plain_speed
 from motor_model.effect import Extent
 from motor_model.sample import Measurement
@@ -23,9 +23,15 @@ def measure_extent(recordings: Sequence[Recording]) -> Extent:
         max(float(np.abs(recording.voltage).max()) for recording in recordings),
         speed,
         max(recording.duration for recording in recordings),
-        min(recording.sample_period for recording in recordings),
+        min(map(_find_quickest, recordings)),
         max(_finest_cycles(recording, speed) for recording in recordings),
+        have_steady_states(recordings),
     )
+
+
+def _find_quickest(recording: Recording) -> float:
+    """[s] the time in which a recording shows a motion: a sample, or of steady states what each is the mean over."""
+    return recording.info.speed_window if recording.has_steady_states else recording.sample_period
 
 
 @once

@@ -13,13 +13,14 @@ from numpy.typing import NDArray
 
 from motor_identification.logs.count_size import MOST_EDGES
 from motor_identification.logs.form import CsvForm
+from motor_identification.recording import STEADY_HOLD
 from motor_model.errors import RecordingError
 from motor_model.sample import Info, Measurement, Sample
 
 Floats = NDArray[np.float64]
 
-HOLD = 20.0  # [s] so long that any motor but the slowest has settled, so short that drag is still quick to simulate
-LONGEST = 5.0  # [s] that a speed may be the mean over
+HOLD = STEADY_HOLD  # [s] so short that drag is still quick to simulate
+LONGEST = 0.25 * HOLD  # [s] that a speed may be the mean over
 WINDOW = 1.0  # [s] that it is taken to be
 
 

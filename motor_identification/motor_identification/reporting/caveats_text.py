@@ -10,7 +10,7 @@ from motor_identification.diagnosis.evidence.command_evidence import find_fallin
 from motor_identification.diagnosis.result import Diagnosis, Finding
 from motor_identification.diagnosis.thresholds import EXPLAINED_GAP, WILD_TIME
 from motor_identification.noise.error_model import Disturbance, average_correlation
-from motor_identification.recording import Floats
+from motor_identification.recording import Floats, have_steady_states
 from motor_identification.reporting.names import effect_name, join_names
 from motor_identification.reporting.numbers import format_measured
 from motor_identification.validation.held_out import HeldOut
@@ -21,6 +21,7 @@ TOO_STRONG = (
     "something else that moves the shaft."
 )
 NO_TORQUE = "What is left is no random torque: none is found beside it ({})."
+OF_STATES = "The rest is random: {} from state to state."
 IN_A_ROW = (
     "The rest is random: a torque that lasts for less than a row ({:.3g} s), of which strength and correlation time do "
     "not show apart; its mean over a row is {:.2g} V RMS."
@@ -155,6 +156,8 @@ def describe_disturbance(diagnosis: Diagnosis) -> str:
         return NO_TORQUE.format(strength)
     if found.rms_voltage < min(NEGLIGIBLE * largest, found.rms_error):  # and the sensor leaves the rest
         return ""
+    if have_steady_states(diagnosis.after.recordings):
+        return OF_STATES.format(strength)
     time = format_measured(found.correlation_time, found.time_error, "s")
     torque = f"The rest is random: a torque of {strength}, correlated over {time}."
     row = min((one.sample_period for one in diagnosis.after.recordings), default=0.0)

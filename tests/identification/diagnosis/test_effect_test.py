@@ -18,6 +18,7 @@ from motor_identification.diagnosis.effect_test import (
     choose_finding,
     count_parameters,
     is_over_too_soon,
+    is_static,
     list_candidates,
     sort_by_table,
     try_effects,
@@ -34,6 +35,7 @@ from motor_identification.recording import Floats, Recording, check
 from motor_identification.validation.hold_out import HoldOut
 from motor_model.effects import EFFECTS
 from motor_model.parameters import Parameters
+from motor_model.sample import Measurement
 
 
 def sine(turns: Floats) -> Recording:
@@ -71,6 +73,11 @@ def test_candidates_are_what_a_model_lacks_and_can_have() -> None:
     swept = replace(one, seen=False, recordings=(sine(np.linspace(0.0, 6.0, 2001) ** 2),))
     assert set(names) - set(list_candidates((), swept)) == {"warm_up"}  # which goes with the frequency as well
     assert list_candidates((), replace(swept, recordings=(*swept.recordings, *one.recordings))) == names
+    info = replace(sine(np.zeros(2)).info, sample_period=20.0, speed_window=1.0, measurement=Measurement.SPEED)
+    steady = replace(one, seen=False, recordings=(replace(one.recordings[0], info=info),))
+    assert list_candidates((), steady) == [name for name in names if is_static(name)]
+    assert "warm_up" not in list_candidates((), steady) and "dead_zone" in list_candidates((), steady)
+    assert list_candidates((), replace(steady, recordings=(*steady.recordings, *one.recordings))) == names
     sliding = list_candidates(("coulomb_friction",))
     assert "static_friction" in sliding and "coulomb_friction" not in sliding
     steps = replace(one.recordings[0], voltage=np.where(one.recordings[0].voltage > 0.0, 9.6, 0.0))

@@ -8,6 +8,7 @@ from small import small_recording
 
 from motor_identification.estimation.extent import TURNING_SPEED, measure_extent
 from motor_model.effects import SPEC_BY_NAME
+from motor_model.sample import Measurement
 
 
 @pytest.mark.parametrize(
@@ -20,6 +21,19 @@ def test_a_ripple_is_as_fine_as_disc_and_samples_show(edges: int, rate: float, c
     extent = measure_extent([replace(recording, info=info)])
     expected = cycles if cycles != 1 else 2.0 * np.pi / (TURNING_SPEED * extent.speed / rate)
     assert extent.cycles == pytest.approx(expected)
+
+
+def test_steady_states_are_as_quick_as_what_each_is_the_mean_over() -> None:
+    """The box of what they do not show is next to nothing; beside a recording of motion it is that one's."""
+    moving = small_recording()
+    info = replace(moving.info, sample_period=20.0, speed_window=1.0, measurement=Measurement.SPEED)
+    steady = replace(moving, info=info)
+    alone, both = measure_extent([steady]), measure_extent([steady, moving])
+    assert (alone.sample, alone.steady) == (1.0, True) and (both.sample, both.steady) == (moving.sample_period, False)
+    (low, high), (least, most) = SPEC_BY_NAME["ka"].box(alone), SPEC_BY_NAME["ka"].box(both)
+    assert low == pytest.approx(0.04 * alone.voltage / alone.speed) and high == pytest.approx(2.0 * low)
+    assert most > 1e5 * least
+    assert SPEC_BY_NAME["kv"].box(alone) == SPEC_BY_NAME["kv"].box(both)
 
 
 @pytest.mark.parametrize("top", [3.0, 14.0, 30.0, 100.0, 500.0])

@@ -5,8 +5,11 @@ from math import tau
 import numpy as np
 import pytest
 
+from motor_identification.diagnose import diagnose
+from motor_identification.diagnosis.effect_test import is_static
 from motor_identification.logs.form import CsvForm, Kind
 from motor_identification.logs.steady import HOLD, LONGEST, read_steady
+from motor_identification.recording import Floats, check, recording_of
 from motor_model.errors import RecordingError
 from motor_model.sample import Info, Measurement
 
@@ -36,3 +39,20 @@ def test_a_mean_over_more_than_a_stairs_end_is_refused() -> None:
     assert read_steady(at_most, Info(), *rows).info.speed_window == LONGEST
     with pytest.raises(RecordingError, match="the mean over 5 s at most: reduce --speed-window"):
         read_steady(CsvForm(None, "u", "y", Kind.SPEED, "rad/s", speed_window=LONGEST + 0.01), Info(), *rows)
+
+
+def bend(voltage: Floats) -> Floats:
+    """Turns a minute of a motor on a bridge that lets it coast, from 1.2 V on, counted in sixths of a turn."""
+    over = np.maximum(voltage - 1.2, 0.0)
+    return 60.0 * np.round(6.0 * 38.0 * over / (over + 6.0)) / 6.0
+
+
+def test_steady_states_tell_nothing_that_takes_time() -> None:
+    """A static curve's bend was taken for a time constant of 4.8 s, "or transport delay", and a load step at 797 s."""
+    voltage = np.linspace(0.0, 12.0, 80)
+    steady = read_steady(FORM, Info(max_voltage=12.0), voltage, bend(voltage), [slice(0, 80)])
+    found = diagnose([check(recording_of(steady.samples[0], steady.info, "curve"))])
+    names = {name for one in found.findings for name in (one.effect, *one.ambiguous_with)}
+    assert names == {"coast_drive", "coulomb_friction", "dead_zone"} and all(map(is_static, names))
+    assert "ka" in found.model.not_identifiable and "kv" not in found.model.not_identifiable
+    assert not any(" s after" in one.where or " t " in one.where for one in found.findings)

@@ -17,6 +17,7 @@ from motor_identification.recording import check
 from motor_identification.reporting import caveats_text
 from motor_identification.reporting.caveats_text import MUCH, describe_cut
 from motor_identification.reporting.diagnosis_text import summarize_diagnosis
+from motor_model.sample import Measurement
 
 
 def test_a_random_torque_is_said_with_its_strength(variants: dict[Verdict, Diagnosis]) -> None:
@@ -25,6 +26,16 @@ def test_a_random_torque_is_said_with_its_strength(variants: dict[Verdict, Diagn
         said = summarize_diagnosis(replace(variants[verdict], disturbance=torque))
         assert "The rest is random: a torque of 0.1503 ± 0.0042 V RMS, correlated over 0.0512 ± 0.0031 s." in said
         assert "random" not in summarize_diagnosis(replace(variants[verdict], disturbance=None))
+
+
+def test_what_is_left_of_steady_states_has_no_time(variants: dict[Verdict, Diagnosis]) -> None:
+    """Rows of a static curve, each a stair of 20 s, were off by a torque that was "correlated over 110 s"."""
+    one = replace(variants[Verdict.EXPLAINED], disturbance=Disturbance(0.1503, 0.0042, 110.0, 31.0))
+    assert "correlated over 110 ± 31 s" in summarize_diagnosis(one)
+    info = replace(one.after.recordings[0].info, sample_period=20.0, speed_window=1.0, measurement=Measurement.SPEED)
+    states = tuple(replace(recording, info=info) for recording in one.after.recordings)
+    said = summarize_diagnosis(replace(one, after=replace(one.after, recordings=states)))
+    assert "The rest is random: 0.1503 ± 0.0042 V RMS from state to state." in said and "correlated" not in said
 
 
 @pytest.mark.parametrize(("error", "rows", "apart"), [(0.09, 0.2, True), (0.11, 0.2, False), (0.11, 1.2, True)])

@@ -57,12 +57,15 @@ def try_in_place(
     better = choose_better(_drop_without_own_evidence(tests, effect, without, current), effect, current)
     if better is None:
         return selection.replace_step(step, replace(step, rivals=_list_rivals(tests, effect, current)), current)
+    bare = refit_without(better.model, better.effect, selection.hold_out)
+    if _needs_neither(better, bare):
+        return selection.replace_step(step, None, bare)
     rivals = find_rivals(better, tests)
     if count_parameters(effect) <= count_parameters(better.effect) and (
         _is_contradicted(effect, better, current)
         or holds_nearly_as_well(CandidateTest(effect, better.before, current), better.effect, better.evidence)
         or _leaves_no_more_alone(step, better, current)
-        or _is_as_likely_from_there(effect, better, selection)
+        or _is_as_likely_from_there(effect, better, bare, selection)
     ):
         rivals = sort_by_table({*rivals, effect})
     return selection.replace_step(step, replace(step, found=better, rivals=rivals), better.model)
@@ -177,9 +180,22 @@ def _leaves_no_more_alone(step: SelectionStep, better: CandidateTest, current: M
     return likelier and current.likelihood - better.before.likelihood > least
 
 
-def _is_as_likely_from_there(effect: str, better: CandidateTest, selection: Selection) -> bool:
-    """Decide whether an effect is a rival of what is better, fitted from where that leads: as good a chance."""
-    bare = refit_without(better.model, better.effect, selection.hold_out)
+def _needs_neither(better: CandidateTest, bare: Model) -> bool:
+    """Decide whether nothing is needed in the place of a finding: what is better is not, fitted from where that leads.
+
+    The model without the finding may have ended in a local minimum, out of which the other one's start led. Measured:
+    of a motor's static curve, 1.02 rad/s without a friction, 0.296 with a limit beyond all that was applied in its
+    place, and 0.299 without either.
+    """
+    escaped = bare.likelihood - better.before.likelihood > likelihood_threshold()
+    return escaped and not replace(better, before=bare).is_likely(likelihood_threshold())
+
+
+def _is_as_likely_from_there(effect: str, better: CandidateTest, bare: Model, selection: Selection) -> bool:
+    """Decide whether an effect is a rival of what is better, fitted from where that leads: as good a chance.
+
+    bare: what is better, fitted again without that.
+    """
     (test,) = try_effects(bare, selection.hold_out, [effect], selection.workers, lambda test: None)
     return are_alike(test.model, better.model)
 

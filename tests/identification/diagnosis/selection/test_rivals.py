@@ -167,10 +167,41 @@ def test_what_is_replaced_is_a_rival_if_it_is_as_likely_from_where_the_other_lea
 ) -> None:
     bare, better = stub_model(5.0, likelihood=-900.0), stub_model(1.0, likelihood=-100.0)
     again = stub_model(1.0, likelihood=-100.0 - loss)
-    monkeypatch.setattr(module, "refit_without", lambda *_: bare)
     monkeypatch.setattr(module, "try_effects", lambda model, _, names, *__: [CandidateTest(*names, model, again)])
     test = CandidateTest(instead, bare, better)
-    assert module._is_as_likely_from_there(effect, test, stub_selection(2.0)) is alike
+    assert module._is_as_likely_from_there(effect, test, bare, stub_selection(2.0)) is alike
+
+
+@pytest.mark.parametrize(
+    ("escaped", "gain", "neither"), [(ABOVE, BELOW, True), (BELOW, BELOW, False), (ABOVE, ABOVE, False)]
+)
+def test_what_is_better_only_than_a_local_minimum_is_not_needed_either(
+    escaped: float, gain: float, neither: bool
+) -> None:
+    """A limit beyond all that was applied, in the place of a friction without which a fit had ended far away."""
+    stuck, least = stub_model(1.02, likelihood=-900.0), likelihood_threshold()
+    bare = stub_model(0.299, likelihood=-900.0 + escaped * least)
+    better = stub_model(0.296, likelihood=bare.likelihood + gain * least)
+    assert module._needs_neither(CandidateTest("voltage_limit", stuck, better), bare) is neither
+
+
+@pytest.mark.parametrize("needed", [True, False])
+def test_where_neither_is_needed_a_finding_goes(monkeypatch: pytest.MonkeyPatch, needed: bool) -> None:
+    without, bare = (with_effects(stub_model(1.0, likelihood=value)) for value in (-900.0, -150.0))
+    current = with_effects(stub_model(0.2, likelihood=-200.0), "coulomb_friction")
+    better = CandidateTest("load_bias", without, with_effects(stub_model(0.3, likelihood=-100.0), "load_bias"))
+    step = step_of(CandidateTest("coulomb_friction", without, current))
+    selection = replace(stub_selection(2.0, step), model=current)
+    monkeypatch.setattr(module, "list_replacements", lambda *_: ["load_bias"])
+    monkeypatch.setattr(module, "try_effects", lambda *_: [better])
+    monkeypatch.setattr(module, "start_from_same_size", lambda test, *_: test)
+    monkeypatch.setattr(module, "_drop_without_own_evidence", lambda tests, *_: tests)
+    monkeypatch.setattr(module, "refit_without", lambda *_: bare)
+    monkeypatch.setattr(module, "_needs_neither", lambda test, model: not needed and model is bare)
+    monkeypatch.setattr(module, "_is_as_likely_from_there", lambda *_: False)
+    left = module.try_in_place(selection, step, without, current, SILENT)
+    assert [one.found.effect for one in left.steps] == (["load_bias"] if needed else [])
+    assert left.model is (better.model if needed else bare)
 
 
 @pytest.mark.parametrize(
@@ -205,6 +236,7 @@ def test_what_is_there_from_the_start_takes_no_place(monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(module, "is_there_from_the_start", lambda test: at_once)
     monkeypatch.setattr(module, "is_own_evidence", lambda *_: False)
     monkeypatch.setattr(module, "_is_as_likely_from_there", lambda *_: False)
+    monkeypatch.setattr(module, "refit_without", lambda *_: without)
     selection = replace(stub_selection(2.0, step), model=current)
     (left,) = module.try_in_place(selection, step, without, current, SILENT).steps
     assert left.found.effect == ("coulomb_friction" if at_once else "load_step")
@@ -233,6 +265,7 @@ def test_what_is_replaced_by_what_leaves_more_is_its_rival(
     monkeypatch.setattr(module, "catch_up", lambda current, *_: current)
     monkeypatch.setattr(module, "try_effects", lambda *_: [CandidateTest("armature_inductance", without, instead)])
     monkeypatch.setattr(module, "_is_as_likely_from_there", lambda *_: False)
+    monkeypatch.setattr(module, "refit_without", lambda *_: without)
     monkeypatch.setattr(module, "is_own_evidence", lambda *_: False)
     selection = replace(stub_selection(2.0, step), model=current)
     (left,) = module.try_in_place(selection, step, without, current, SILENT).steps
@@ -267,6 +300,7 @@ def test_what_leaves_no_more_and_was_likelier_alone_is_a_rival_of_what_is_likeli
     monkeypatch.setattr(module, "settle", lambda test, *_: test)
     monkeypatch.setattr(module, "try_effects", lambda *_: [better])
     monkeypatch.setattr(module, "_is_as_likely_from_there", lambda *_: False)
+    monkeypatch.setattr(module, "refit_without", lambda *_: without)
     monkeypatch.setattr(module, "is_own_evidence", lambda *_: False)
     monkeypatch.setattr(module, "holds_nearly_as_well", lambda *_: False)
     selection = replace(stub_selection(2.0, step), model=current)
@@ -300,6 +334,7 @@ def test_a_friction_in_the_place_of_a_dead_zone_is_its_rival_unless_that_is_far_
     monkeypatch.setattr(module, "settle", lambda test, *_: test)
     monkeypatch.setattr(module, "try_effects", lambda *_: [CandidateTest(instead, without, other)])
     monkeypatch.setattr(module, "_is_as_likely_from_there", lambda *_: False)
+    monkeypatch.setattr(module, "refit_without", lambda *_: without)
     monkeypatch.setattr(module, "is_own_evidence", lambda *_: False)
     selection = replace(stub_selection(2.0, step), model=current)
     (left,) = module.try_in_place(selection, step, without, current, SILENT).steps
