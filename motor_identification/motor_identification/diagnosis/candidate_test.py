@@ -8,7 +8,7 @@ from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model, find_lasting_interval
 from motor_identification.diagnosis.evidence.calm_evidence import explains_calm
 from motor_identification.diagnosis.evidence.change_evidence import explains_changes
-from motor_identification.diagnosis.evidence.standstill_evidence import was_held
+from motor_identification.diagnosis.evidence.standstill_evidence import explains_standstills, was_held
 from motor_identification.diagnosis.evidence.torque_evidence import measure_speaking, measure_steadiness
 from motor_identification.validation.held_out import HeldOut
 from motor_identification.validation.instants import comes_slowly, needs_instant
@@ -122,7 +122,11 @@ class CandidateTest:
 
     @cached_property
     def relevant(self) -> bool:
-        """Whether it takes away a good part of what lasts longer than the encoder's noise, or of the white residual."""
+        """Whether it takes away a good part of what lasts longer than the encoder's noise, or of the white residual.
+
+        What holds a motor where it stood under a voltage does whatever else is left where it moves. Measured: a wheel
+        on the floor stood for 44 % of the time, and a friction of 1.3 V took 14 % of what its dips left away.
+        """
         if self.model.beside_torque:
             return self._is_relevant_beside_torque()
         before, after = self._join_lasting()
@@ -136,7 +140,9 @@ class CandidateTest:
             return False
         effect = EFFECT_BY_NAME[self.effect]
         calm = effect.holds and effect.linear_onset and explains_calm(self.before, self.model)
-        return calm or share_explained(before.gap, after.gap, floor) > least
+        if calm or share_explained(before.gap, after.gap, floor) > least:
+            return True
+        return effect.holds and explains_standstills(self.before, self.model)
 
     def _is_relevant_beside_torque(self) -> bool:
         said = self.model.score.held_out - self.before.score.held_out

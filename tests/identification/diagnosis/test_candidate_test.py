@@ -229,11 +229,36 @@ def test_a_lag_longer_than_rows_are_late_is_the_motors(
 def test_a_friction_that_explains_most_of_the_time_is_relevant_whatever_is_left_in_few_moments(
     monkeypatch: pytest.MonkeyPatch, effect: str, falls: float, relevant: bool
 ) -> None:
+    monkeypatch.setattr(candidate_test, "explains_standstills", lambda *_: False)
     before = stub_model(20.0)
     test = stub_test(effect, before, 20.0 * falls, 100.0)
     assert not test.relevant
     monkeypatch.setattr(
         candidate_test, "explains_calm", lambda without, model: without is before and model is test.model
+    )
+    assert not stub_test(effect, before, 20.0 * falls, 100.0).relevant  # another model
+    assert replace(test).relevant is relevant
+
+
+@pytest.mark.parametrize(
+    ("effect", "falls", "relevant"),
+    [
+        ("coulomb_friction", 0.999, True),
+        ("dead_zone", 0.999, True),
+        ("static_friction", 0.999, True),
+        ("quadratic_drag", 0.999, False),  # it holds nothing
+        ("coulomb_friction", 1.001, False),  # the gap has to fall at all
+    ],
+)
+def test_what_holds_a_motor_where_it_stood_under_a_voltage_is_relevant_whatever_is_left_in_motion(
+    monkeypatch: pytest.MonkeyPatch, effect: str, falls: float, relevant: bool
+) -> None:
+    """A wheel on the floor stood for 44 % of the time; what its dips left was 45 times the floor with a friction."""
+    before = stub_model(20.0)
+    test = stub_test(effect, before, 20.0 * falls, 100.0)
+    monkeypatch.setattr(candidate_test, "explains_calm", lambda *_: False)
+    monkeypatch.setattr(
+        candidate_test, "explains_standstills", lambda without, model: without is before and model is test.model
     )
     assert not stub_test(effect, before, 20.0 * falls, 100.0).relevant  # another model
     assert replace(test).relevant is relevant

@@ -12,7 +12,7 @@ from plant import record
 from stub_models import StubModel, rescored, stub_held, stub_model, stub_test
 from stub_selections import selection_of, step_of
 
-from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis import candidate_test, thresholds
 from motor_identification.diagnosis.candidate_model import Model, Score
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.effect_test import choose_finding
@@ -190,6 +190,7 @@ def test_it_is_told_where_something_likely_takes_away_too_little(
     likely: float, gap: float, refused: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     Fake(monkeypatch, [])
+    monkeypatch.setattr(candidate_test, "explains_standstills", lambda *_: False)
     evidence = likely * likelihood_threshold()
 
     def try_effects(current: Model, hold_out: Any, effects: list[str], *rest: Any) -> list[CandidateTest]:
