@@ -227,15 +227,16 @@ VISCOUS_SHARE = P("viscous_share", "–", 0.0, 0.0, 0.75, starts=(0.2,))
 
 # The vector the compiled code works on: every parameter in the order of the table, then the supply, then how many times
 # longer than full accuracy allows a piece of the motion may be, then what a measured current adds (`physical/`),
-# then turns of the encoder's (the motor's) shaft per turn of the output: what is periodic in the angle is so over it.
-MAX_VOLTAGE, COARSENESS, GEAR_RATIO = "max_voltage", "coarseness", "gear_ratio"
+# then turns of the encoder's (the motor's) shaft per turn of the output: what is periodic in the angle is so over it,
+# then the share of a backlash that is open where a standing motor's motion begins.
+MAX_VOLTAGE, COARSENESS, GEAR_RATIO, OPEN_PLAY = "max_voltage", "coarseness", "gear_ratio", "open_play"
 ELECTRICAL = (
     P("resistance", "Ω", 0.0, 0.02, 20.0, logarithmic=True, minimum=1e-6),  # times the voltage per largest current
     P("torque_constant", "N·m/A", 0.0, 0.2, 1.2),  # times kv; 0 is kv
     P("current_offset", "A", 0.0, -0.2, 0.2, minimum=-inf, of_recording=True),  # times the largest current
     P("current_lag", "s", 0.0, 0.0, 1.0, minimum=-inf),  # sample periods by which a reading is older, beyond whole ones
 )
-VECTOR_NAMES = (*SPEC_BY_NAME, MAX_VOLTAGE, COARSENESS, *(spec.name for spec in ELECTRICAL), GEAR_RATIO)
+VECTOR_NAMES = (*SPEC_BY_NAME, MAX_VOLTAGE, COARSENESS, *(spec.name for spec in ELECTRICAL), GEAR_RATIO, OPEN_PLAY)
 INDEX = {name: i for i, name in enumerate(VECTOR_NAMES)}
 
 

@@ -13,6 +13,7 @@ from motor_model.effects import (
     GEAR_RATIO,
     INDEX,
     MAX_VOLTAGE,
+    OPEN_PLAY,
     SPEC_BY_NAME,
     SPECS,
     VECTOR_NAMES,
@@ -122,7 +123,7 @@ def neutral(max_voltage: float, coarseness: float = 1.0, gear_ratio: float = 1.0
     for spec in (*SPECS, *ELECTRICAL):
         vector[INDEX[spec.name]] = spec.off
     vector[INDEX[MAX_VOLTAGE]], vector[INDEX[COARSENESS]] = max_voltage, coarseness
-    vector[INDEX[GEAR_RATIO]] = gear_ratio
+    vector[INDEX[GEAR_RATIO]], vector[INDEX[OPEN_PLAY]] = gear_ratio, 0.0
     return vector
 
 

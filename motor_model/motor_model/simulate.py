@@ -13,7 +13,7 @@ from motor_model.dynamics.forces import warmth
 from motor_model.dynamics.motor import advance
 from motor_model.dynamics.rippling import turn_on
 from motor_model.dynamics.rows import Commands, Reached, find_switch, is_plain, pass_rows
-from motor_model.dynamics.state import State, at_rest, turning
+from motor_model.dynamics.state import State, standing, turning
 from motor_model.dynamics.straight import begin_lag, find_straight, find_torques, prepare_hold
 from motor_model.effects import INDEX
 from motor_model.errors import ModelError
@@ -76,7 +76,7 @@ def roll_out_with_current(  # noqa: C901
     j = np.searchsorted(command_time, t - told.delay, side="right") - 1
     u = command[max(j, 0)] if j >= 0 or start_speed != 0.0 else 0.0
     acted = u if start_speed != 0.0 else 0.0
-    s = turning(p, start_speed, effective_voltage(p, u)) if start_speed != 0.0 else at_rest(0.0)
+    s = turning(p, start_speed, effective_voltage(p, u)) if start_speed != 0.0 else standing(p)
     _put_current(p, acted, s, t, current, 0)
     switch = find_switch(told, j)
     straight, lagging = find_straight(p), begin_lag()

@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from motor_identification.estimation.joined_commands import join_commands
+from motor_identification.estimation.open_play import OPEN, choose_open_play, mark_loose
 from motor_identification.estimation.parameter_space import Unknowns, make_unknowns
 from motor_identification.estimation.residual import Latest, simulate_residuals
 from motor_identification.measurement.build_intervals import make_intervals
@@ -151,12 +152,31 @@ class Problem:
         every = range(len(self.intervals))
         return np.concatenate([self._simulate(r, vectors[:, r], starts[:, r]) for r in every], axis=1)
 
-    def _simulate(self, r: int, vectors: Floats, starts: Floats) -> Floats:
-        """Residuals (S, I) [rad/s] of one recording."""
+    def _simulate(self, r: int, vectors: Floats, starts: Floats, open_play: float | None = None) -> Floats:
+        """Residuals (S, I) [rad/s] of one recording; open_play: the share of a play, None for what leaves least."""
+        if open_play is None:
+            return self._choose_open_play(r, vectors, starts)[0]
+        vectors[:, OPEN] = open_play
+        return self._simulate_swarm(r, vectors, starts)
+
+    def _simulate_swarm(self, r: int, vectors: Floats, starts: Floats) -> Floats:
         self.raise_if_stopped()
         vectors[:, INDEX["coarseness"]] = self.coarseness
         data, anchor = self.intervals[r], self.anchors[r]
         return simulate_residuals(vectors, starts, self.commands[r], anchor, data, self.workers)
+
+    def _choose_open_play(self, r: int, vectors: Floats, starts: Floats) -> tuple[Floats, Floats]:
+        """Residuals (S, I) [rad/s] of one recording, and the shares (S,) of a play that is open as it begins."""
+        weight = self.intervals[r].duration
+        return choose_open_play(lambda some, speeds: self._simulate_swarm(r, some, speeds), vectors, starts, weight)
+
+    def _find_open_play(self, theta: Floats) -> Floats:
+        """Share of a play that is open as each recording begins, at one θ (D,), shape (R,)."""
+        vectors, starts = self.unknowns.decode(theta[None])
+        opened = np.zeros(len(self.intervals))
+        for r in np.flatnonzero(mark_loose(vectors[0], starts[0])):
+            opened[r] = self._choose_open_play(r, vectors[:, r], starts[:, r])[1][0]
+        return opened
 
     def raise_if_stopped(self) -> None:
         """Do nothing, unless the computation was told to stop.
@@ -193,6 +213,7 @@ class Problem:
 
     def _simulate_angles(self, theta: Floats) -> tuple[Floats, ...]:
         vectors, starts = self.unknowns.decode(theta[None])
+        vectors[0, :, OPEN] = self._find_open_play(theta)
         angles = []
         for r, ((time, voltage), data) in enumerate(zip(self.commands, self.intervals, strict=True)):
             angle, speed = np.empty(len(data.time)), np.empty(len(data.time))
@@ -209,7 +230,7 @@ class Problem:
     def _differentiate(self, theta: Floats) -> Floats:
         """Shape (D, I); a recording is simulated for what concerns it only, such as its own initial speed."""
         steps = DERIVATIVE_STEP * (self.unknowns.high - self.unknowns.low)
-        here = self.residuals(theta)
+        here, opened = self.residuals(theta), self._find_open_play(theta)
         vectors, starts = self.unknowns.decode(np.concatenate([theta[None], theta + np.diag(steps)]))
         columns = np.zeros((len(theta), len(here)))
         end = 0
@@ -220,7 +241,7 @@ class Problem:
             # A few unknowns at a time keep all cores busy and an hour's residuals in memory.
             share = max(self.workers, AT_ONCE // len(data.first), 1)
             for some in (concerned[i : i + share] for i in range(0, len(concerned), share)):
-                aside = self._simulate(r, vectors[some + 1, r], starts[some + 1, r])
+                aside = self._simulate(r, vectors[some + 1, r], starts[some + 1, r], float(opened[r]))
                 columns[some, begin:end] = (aside - here[begin:end]) / steps[some, None]
         columns[~np.isfinite(columns)] = 0.0  # a motor a step aside that is no motor says nothing
         return columns

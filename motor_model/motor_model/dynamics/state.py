@@ -8,8 +8,11 @@ from numpy.typing import NDArray
 
 from motor_model.compiled import compiled
 from motor_model.dynamics.forces import drive_of
+from motor_model.effects import INDEX
 
 Floats = NDArray[np.float64]
+
+PLAY, OPEN_PLAY = INDEX["backlash_angle"], INDEX["open_play"]
 
 
 class State(NamedTuple):
@@ -27,6 +30,12 @@ class State(NamedTuple):
 def at_rest(angle: float) -> State:
     """Return a motor that stands at this angle [rad] and has not moved yet."""
     return State(angle, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+@compiled
+def standing(p: Floats) -> State:
+    """Return a motor that stands at angle 0 and has not moved yet, with as much of its play open as p says."""
+    return State(0.0, 0.0, 0.0, p[OPEN_PLAY] * p[PLAY], 0.0, 0.0)
 
 
 @compiled

@@ -56,8 +56,14 @@ def _sum_squares(left: Sequence[ErrorData]) -> float:
 
 
 def _score_refitted(model: Model, rests: Sequence[Rest]) -> float:
-    """Compute the log likelihood of what a model leaves, refitted where that is likelier; standstills bend it."""
-    own = log_likelihood([errors for errors, _ in rests], model.errors, model.lag)
+    """Compute the log likelihood of what a model leaves, refitted where that is likelier; standstills bend it.
+
+    Under errors that are learned of it, too: those of a model that explains all down to the sensor's floor are the
+    sensor's to begin with. Measured: by these a backlash that took a gap from 9.3 to 0.13 rad/s was less likely than
+    nothing by 123, and a presliding friction took its place that was likelier by 9.
+    """
+    left = [errors for errors, _ in rests]
+    own = max(log_likelihood(left, model.errors, model.lag), _score(model, left))
     return max(own, _score(model, _refit(model, rests, 0.0)))
 
 

@@ -1,5 +1,6 @@
 """A friction that builds up after a reversal is told from a backlash by the motion that both were fitted to."""
 
+from dataclasses import replace
 from functools import cache
 
 import pytest
@@ -8,9 +9,11 @@ from stand_ins import is_taken_back, select_beside_friction
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
-from motor_identification.diagnosis.evidence.presliding_evidence import find_presliding
+from motor_identification.diagnosis.evidence.presliding_evidence import _list_rests, _score_refitted, find_presliding
 from motor_identification.diagnosis.selection.backward_elimination import eliminate_backward
 from motor_identification.diagnosis.selection.selection import Selection
+from motor_identification.noise.error_data import log_likelihood
+from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter
 from motor_identification.recording import check
 
@@ -67,3 +70,13 @@ def test_elimination_takes_a_stand_in_back_and_leaves_it_unexplained(hidden: str
 def test_both_are_judged_beside_the_torque_that_is_there() -> None:
     without, model = fitted("backlash")
     assert model.beside_torque and without.beside_torque and model.likelihood > without.likelihood + 50.0
+
+
+def test_a_model_is_judged_by_errors_that_are_learned_of_it() -> None:
+    """Those of one at the sensor's floor are the sensor's: by these a backlash was less likely than nothing by 123."""
+    without, current = fitted("backlash")
+    at_floor = replace(current, learned=ErrorModel(0.0, 0.0, 0.0, 1.0))
+    rests = _list_rests(at_floor)
+    before = _score_refitted(without, _list_rests(without))
+    assert log_likelihood([errors for errors, _ in rests], at_floor.errors, at_floor.lag) < before
+    assert _score_refitted(at_floor, rests) > before + 100.0 and find_presliding(without, at_floor) is None
