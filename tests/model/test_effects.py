@@ -34,7 +34,7 @@ TABLE = {
 def test_the_table_is_that_of_the_interface() -> None:
     assert {effect.name: {spec.name: spec.unit for spec in effect.parameters} for effect in EFFECTS} == TABLE
     assert [(spec.name, spec.unit) for spec in specs_of(())] == [("kv", "V·s/rad"), ("ka", "V·s²/rad")]
-    assert len(VECTOR_NAMES) == len(set(VECTOR_NAMES)) == len(SPECS) + 7
+    assert len(VECTOR_NAMES) == len(set(VECTOR_NAMES)) == len(SPECS) + 8
 
 
 def test_every_row_of_the_table_can_be_searched() -> None:
