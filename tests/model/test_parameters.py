@@ -29,7 +29,7 @@ def test_an_effect_that_is_absent_is_off() -> None:
     vector = motor.vector()
     assert vector.shape == (len(VECTOR_NAMES),) and vector.dtype == np.float64
     assert (vector[INDEX["kv"]], vector[INDEX["ks"]], vector[INDEX["max_voltage"]]) == (0.07, 0.5, 24.0)
-    off = np.array([spec.off for spec in SPECS] + [24.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0])
+    off = np.array([spec.off for spec in SPECS] + [24.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0])
     assert list(np.flatnonzero(vector != off)) == [INDEX["kv"], INDEX["ka"], INDEX["ks"]]
 
 
