@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from motor_identification.logs.columns.behaviour.half_bridges import join_half_bridge
+from motor_identification.logs.columns.behaviour.pulses import read_pulses
 from motor_identification.logs.columns.guess import guess_forms
 from motor_identification.logs.columns.motion.direction import join_two_ways
 from motor_identification.logs.columns.motion.edge_periods import read_edge_periods
@@ -90,7 +91,8 @@ def _read_motors(given: Table, said: Said) -> tuple[list[Motor], list[str]]:
         table = give_voltage(table, said.constant_voltage)
         said = replace(said, voltage=CONSTANT)
     table, said = read_edge_periods(table, said)
-    filled = fill_gaps(table if said.motors else join_half_bridge(join_two_ways(table, said.voltage), said))
+    joined = table if said.motors else join_half_bridge(join_two_ways(table, said.voltage), said)
+    filled = fill_gaps(read_pulses(joined, said))
     guess = guess_forms(filled.table, said)
     motors = []
     for form in guess.forms:

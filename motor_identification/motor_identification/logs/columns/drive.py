@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from motor_identification.logs.columns.heading import Heading
 from motor_identification.logs.columns.names.quantity import is_pulse
 from motor_identification.logs.columns.vocabulary import SHARES, UNITS, VOLTAGE_WORDS, Quantity, words_of
+from motor_identification.logs.correlation import correlate
 from motor_identification.logs.csv.table import Table
 
 Floats = NDArray[np.float64]
@@ -40,6 +41,9 @@ _BITS_8 = 255.0  # a duty of so many at most is called a voltage by some
 _OF_DUTY = " (of a duty, say --full-duty)"
 _STEADY_SUPPLY = 0.5  # of its largest value: a supply stays above, a motor's voltage passes 0
 MILLIVOLTS_FROM = 100.0  # such a supply is given in mV
+_STANDS = 0.01  # of the largest speed
+_WITH = 0.5  # correlation of what rises, or falls, with a speed
+_USUALLY = 0.9  # quantile: a converter's noise is above now and then
 _EFFORT = "effort"  # of joint states
 REACHED = 0.5  # of a register of 16 bits, below which a largest duty tells nothing of it: 5,299 is of 5,319 or of 6,000
 FEWEST_MILLIVOLTS = 2000.0  # of what is called a voltage: fewer may be a duty of 255 or 1,023
@@ -91,13 +95,15 @@ def duty_drive(heading: Heading, values: Floats, full: float | None = None) -> D
     if full:
         return Drive(None, f"as a duty of ±{full:g}", full)
     largest = float(np.max(np.abs(values), initial=0.0))
-    if is_pulse(heading.words, heading.unit) and _PULSES[0] <= largest <= _PULSES[1]:
+    if _is_called_pulse(heading) and _PULSES[0] <= largest <= _PULSES[1]:
         whose = "a servo's" if "servo" in heading.words else "an ESC's"
-        pulses = np.sort(np.abs(values[values != 0.0]))
-        if pulses[int(_STRAY * len(pulses))] < _SHORTEST_PULSE:
+        if not are_pulses(heading, values):
+            pulses = np.sort(np.abs(values[values != 0.0]))
             digital = "as digital commands do (of DSHOT: --full-duty 2047 and --supply-voltage V)"
             return Drive(None, f"goes from {pulses[0]:g} to {largest:g}, no pulse in µs but {digital}", sure=False)
         return Drive(None, f"is {whose} pulse in µs and no duty, as it is 1000 or 1500 at 0 V", sure=False)
+    if heading.unit == "us" and not {"esc", "servo"} & set(heading.words):
+        return Drive(None, "is how long a pulse is in µs, and no number says how far they are apart", sure=False)
     if heading.unit == "%" and (largest > 1.0 or not np.any(values % 1.0)):
         return Drive(None, "as a duty in %", 100.0)
     if heading.unit == "%":  # which would be a motor that never gets 1 % of its supply
@@ -113,6 +119,18 @@ def duty_drive(heading: Heading, values: Floats, full: float | None = None) -> D
     if heading.quantity is None and largest < 100.0 and not np.any(values % 1.0):  # of 100 or of 255: nothing tells
         return Drive(None, f"as a duty of ±{largest:g} (assumed; otherwise: --full-duty)", largest, sure=False)
     return _drive_by_largest(heading, values, largest)
+
+
+def are_pulses(heading: Heading, values: Floats) -> bool:
+    """Whether a column (K,) holds the pulses [µs] that a model's motor controller or servo gets."""
+    pulses = np.sort(np.abs(values[values != 0.0]))
+    if not _is_called_pulse(heading) or not len(pulses) or not _PULSES[0] <= pulses[-1] <= _PULSES[1]:
+        return False
+    return bool(pulses[int(_STRAY * len(pulses))] >= _SHORTEST_PULSE)
+
+
+def _is_called_pulse(heading: Heading) -> bool:
+    return is_pulse(heading.words, heading.unit) or (heading.quantity is Quantity.DUTY and heading.unit == "us")
 
 
 def _drive_by_largest(heading: Heading, values: Floats, largest: float) -> Drive:
@@ -182,6 +200,23 @@ def is_supply(values: Floats, duty: Floats) -> bool:
     steady = bool(np.all(values >= _STEADY_SUPPLY * largest)) and largest > 0.0
     swing = np.ptp(np.abs(duty))
     return steady and bool(swing > 0.5 * np.max(np.abs(duty), initial=0.0))
+
+
+def sags(values: Floats, duty: Floats, speed: Floats) -> bool:
+    """Whether voltages are those of a supply under load: the faster a motor runs by its duty, the lower they are.
+
+    What drives a motor is higher where it runs faster, and a supply is at its highest where the motor stands. All of
+    shape (K,), in any unit; the duty may be a pulse, 1000 at rest.
+    """
+    size = np.abs(speed)
+    top, largest = float(np.max(size, initial=0.0)), float(np.max(np.abs(values), initial=0.0))
+    stands = size <= _STANDS * top
+    if not stands.any() or stands.all() or float(np.min(values)) < _STEADY_SUPPLY * largest:
+        return False
+    rest = float(np.median(values[stands]))
+    command = np.abs(duty - float(np.median(duty[stands])))
+    highest = rest >= float(np.quantile(values[~stands], _USUALLY))
+    return highest and correlate(values, size) < -_WITH and correlate(command, size) > _WITH
 
 
 def drives(heading: Heading) -> bool:

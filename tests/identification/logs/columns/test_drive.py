@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from motor_identification.logs.columns.drive import duty_drive, is_supply, supply_scale, voltage_drive
+from motor_identification.logs.columns.drive import duty_drive, is_supply, sags, supply_scale, voltage_drive
 from motor_identification.logs.columns.heading import read_heading
 
 WAVE = np.sin(np.arange(100) / 5.0)
@@ -211,3 +211,23 @@ def test_an_input_that_is_never_above_1_may_be_a_share(name: str, top: float, do
     """A duty of ±1 that was called u was read as volts, and kv was off by the whole supply."""
     drive = voltage_drive(read_heading(name), top * WAVE / np.abs(WAVE).max())
     assert drive.scale == 1.0 and ("--full-duty 1)" in drive.why) is doubted
+
+
+@pytest.mark.parametrize(
+    ("volts", "least_duty", "supply"),
+    [
+        ((12.0, 9.0), 1000.0, True),  # a pulse, which never comes near 0
+        ((12.0, 9.0), 0.0, True),
+        ((12.0, 5.9), 0.0, False),  # less than half is left: no supply
+        ((9.0, 12.0), 0.0, False),  # it rises with the speed, as what drives does
+        ((12.0, 12.0), 0.0, False),  # nothing tells
+    ],
+)
+def test_a_supply_falls_where_the_motor_runs_faster(
+    volts: tuple[float, float], least_duty: float, supply: bool
+) -> None:
+    share = np.repeat([0.0, 0.5, 1.0, 0.2, 0.8], 20)
+    values = volts[0] + (volts[1] - volts[0]) * share
+    assert sags(values, least_duty + 1000.0 * share, 300.0 * share) == supply
+    assert not sags(values, np.full(100, 1500.0), 300.0 * share)  # by no duty
+    assert not sags(values, least_duty + 1000.0 * share, 300.0 * share + 50.0)  # it never stands

@@ -140,6 +140,10 @@ ESC signal        | duty           |       |
 ESC signal (µs)   | duty           | us    |
 ESC 1 signal      | duty           |       |
 Servo 3 (µs)      | duty           | us    |
+pwm_us            | duty           | us    |
+Throttle (µs)     | duty           | us    |
+pwm period us     | time           | us    |
+command_us        | time           | us    |
 Left Load Cell (mV) | other        | mV    | left
 ESC speed         | speed          |       |
 ESC voltage (V)   | voltage        | V     |

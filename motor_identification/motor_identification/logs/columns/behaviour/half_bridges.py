@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from motor_identification.logs.columns.drive import drives
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.motion.direction import TOGETHER, WORDS
-from motor_identification.logs.columns.roles.candidates import is_numeric
+from motor_identification.logs.columns.roles.candidates import list_readable
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.columns.vocabulary import MOVES, Quantity, words_of
 from motor_identification.logs.csv.table import Table
@@ -47,9 +47,12 @@ def join_half_bridge(table: Table, said: Said) -> Table:
     """
     if said.voltage or said.direction or said.constant_voltage is not None or said.motors:
         return table
-    headings = [read_heading(name) for name in table.names if is_numeric(table, name)]
-    if len({one.side for one in headings if one.quantity in MOVES}) > 1:
-        return table  # several motors
+    headings = list_readable(table)
+    gaps = set(table.names) - {one.name for one in headings}
+    if len({one.side for one in headings if one.quantity in MOVES}) > 1 or any(
+        drives(read_heading(one)) for one in gaps
+    ):
+        return table  # several motors, or another drive
     able = [one for one in headings if one.quantity in (None, Quantity.VOLTAGE, Quantity.DUTY)]
     able = [one for one in able if not WORDS & set(one.words) and _may_be_pin(table, one.name)]
     for one, other in combinations(able, 2):
@@ -98,8 +101,6 @@ def _find_turned(table: Table, beside: Sequence[Heading], first: Floats, second:
 
 
 def _may_be_pin(table: Table, name: str) -> bool:
-    if not bool(table.readable(name).all()):
-        return False
     values = table.numbers(name)
     on = values > 0.0
     return bool(np.min(values) >= 0.0) and np.count_nonzero(on) >= FEWEST_ROWS

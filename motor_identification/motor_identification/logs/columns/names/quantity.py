@@ -20,6 +20,7 @@ _ANY_DRIVE = INPUTS | words_of("u applied sine sinewave chirp ramp stair stairs 
 _DUTIES = SHARES - words_of("power effort esforço esforco esfuerzo")
 _ORDERS = frozenset(["command", "cmd", "commanded"])  # of a speed or a position: what it should be
 _PULSES = frozenset(["esc", "servo", "signal", "pwm", "throttle", "pulse", "width", "command", "cmd", "output"])
+_LASTING = frozenset(["pwm", "throttle"])  # in µs: how long its pulses are, and no time
 _TESTS = frozenset(["test", "trial"])  # whose numbers are no times, however evenly they go on
 _NUMBERS = frozenset(["no", "nr", "num", "number"])
 _ROWS = frozenset(["sample", "samples", "row", "rows"])
@@ -115,9 +116,9 @@ def _quantity_of_an_output(words: tuple[str, ...], told: list[Quantity]) -> Quan
 def _is_duty_whatever_its_unit(words: tuple[str, ...], unit: str, told: list[Quantity]) -> bool:
     """Whether a name is one of a duty: `pwm_rev`, that of the other way; `PWM [ticks]`, `Commande [pt]`, of a timer.
 
-    So are `ESC signal (µs)` and `Servo 3 (µs)`, of a test stand.
+    So are `ESC signal (µs)` and `Servo 3 (µs)`, of a test stand, and `pwm_us`.
     """
-    if is_pulse(words, unit):
+    if is_pulse(words, unit) or (unit == "us" and _LASTING & set(words) and set(words) <= _PULSES):
         return True
     if unit == "rev":
         return Quantity.DUTY in told

@@ -25,6 +25,12 @@ def is_numeric(table: Table, name: str) -> bool:
     return True
 
 
+def list_readable(table: Table) -> list[Heading]:
+    """The headings of columns of which every cell is a number, as before gaps are filled not all are."""
+    numeric = [name for name in table.names if is_numeric(table, name) and bool(table.readable(name).all())]
+    return [read_heading(name) for name in numeric]
+
+
 def list_unnamed(table: Table, headings: Sequence[Heading]) -> list[str]:
     """Columns whose names tell nothing, without those of nothing but zeros: a log of one step has a constant drive."""
     return [one.name for one in headings if one.quantity is None and np.any(table.numbers(one.name))]

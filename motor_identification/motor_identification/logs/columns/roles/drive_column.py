@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_identification.logs.columns.drive import is_supply
+from motor_identification.logs.columns.drive import is_supply, sags
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.notes import ask_column, ask_drive, miss_drive
 from motor_identification.logs.columns.roles.candidates import is_numeric, list_unnamed
@@ -60,7 +60,17 @@ def _may_drive(table: Table, name: str, duties: Sequence[str]) -> bool:
         return not _is_battery(table, name)
     volts = table.numbers(name)
     idle = not np.any(volts) and any(np.any(table.numbers(duty)) for duty in duties)
-    return not idle and not is_supply(volts, table.numbers(duties[0]))
+    return not idle and not _is_supply(table, name, duties[0])
+
+
+def _is_supply(table: Table, name: str, duty: str) -> bool:
+    """Whether a voltage beside a duty is the supply's: it stays where that passes 0, or falls where the motor runs."""
+    volts, share = table.numbers(name), table.numbers(duty)
+    if is_supply(volts, share):
+        return True
+    beside = [read_heading(one) for one in table.names if is_numeric(table, one)]
+    speeds = [table.numbers(one.name) for one in beside if one.quantity is Quantity.SPEED]
+    return any(sags(volts, share, speed) for speed in speeds)
 
 
 def _is_battery(table: Table, name: str) -> bool:
@@ -105,6 +115,6 @@ def find_supply_column(table: Table, headings: Sequence[Heading], pairs: Sequenc
     taken = {pair.voltage for pair in pairs} | {pair.motion for pair in pairs}
     free = [one for one in headings if one.name not in taken]
     named = [one.name for one in free if one.quantity is Quantity.SUPPLY]
-    duty = table.numbers(pairs[0].voltage)
-    volts = [one.name for one in free if one.quantity is Quantity.VOLTAGE and is_supply(table.numbers(one.name), duty)]
+    duty = pairs[0].voltage
+    volts = [one.name for one in free if one.quantity is Quantity.VOLTAGE and _is_supply(table, one.name, duty)]
     return next(iter(named + volts), None)

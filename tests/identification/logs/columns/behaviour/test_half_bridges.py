@@ -131,3 +131,12 @@ def test_what_the_user_said_stays(tmp_path: Path) -> None:
     (motor,) = import_log(path, Said(supply_voltage=12.0)).motors
     volts = [sample.voltage for sample in motor.log.runs[0].samples]
     assert min(volts) < -11.0 and max(volts) > 11.0
+
+
+def test_columns_with_gaps_are_left_for_what_fills_them() -> None:
+    drive = excite(4_330_105)
+    gaps = np.where(np.arange(ROWS) % 3 == 0, "5", "")
+    for name in ("Voltage", "speed_2"):
+        cells = {"t": PERIOD * np.arange(ROWS), "IN1": forth(drive), "IN2": forth(-drive), name: gaps}
+        table = Table(Path("log.csv"), np.arange(2, ROWS + 2), {**cells, "rpm": run_motor(drive, 4_330_105)})
+        assert (join_half_bridge(table, Said()) is table) == (name == "Voltage")
