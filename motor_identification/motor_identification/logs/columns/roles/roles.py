@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_identification.logs.columns.behaviour.edge_times import EDGE_TIMES, find_edge_times
+from motor_identification.logs.columns.behaviour.error_beside import measured_beside_error
 from motor_identification.logs.columns.behaviour.following import follows
 from motor_identification.logs.columns.behaviour.motors import named_motors, numbered_motors, share_one_drive
 from motor_identification.logs.columns.behaviour.parameters import leave_out_parameters
@@ -73,7 +74,8 @@ def find_roles(table: Table, said: Said) -> Roles:
     if said.time:
         table.column(said.time)
     others = [heading for heading in headings if heading.name not in (time, said.supply)]
-    free = ends_of_a_loop(leave_out_numbers(table, others, time, timed=bool(said.time or edges)))
+    numbered = leave_out_numbers(table, others, time, timed=bool(said.time or edges))
+    free = measured_beside_error(table, numbered) or ends_of_a_loop(numbered)
     free = references_beside(free)
     free = free if said.motion else leave_out_parameters(table, free)
     free = commands_beside_control(table, leave_out_idle_efforts(table, free))
