@@ -23,7 +23,12 @@ from motor_identification.logs.rows.drive.command_sign import (
     take_off_commands_sign,
     take_off_commands_sign_of_speeds,
 )
-from motor_identification.logs.rows.drive.one_channel import ONE_CHANNEL, find_ways
+from motor_identification.logs.rows.drive.one_channel import (
+    ONE_CHANNEL,
+    ONE_CHANNEL_OR_LOAD,
+    find_ways,
+    never_goes_back,
+)
 from motor_identification.logs.rows.drive.own_counts import take_fed_back
 from motor_identification.logs.rows.flicker import remove_flicker
 from motor_identification.logs.rows.resets import split_at_resets
@@ -301,6 +306,7 @@ def _counts(form: CsvForm, info: Info, signals: Signals) -> Motion:
     counts, flicker = remove_flicker(signals, counts) if form.kind is Kind.POSITION else (counts, [])
     rate, held = count_rates(signals, counts)
     ways = find_ways(signals) if one_channel else None
+    stuck = ways is None and not form.signs_as_they_are and never_goes_back(signals)
     speed = rate * edge_angle(count.edges, count.gear) * (1.0 if ways is None else ways)
     info = replace(
         info, measurement=Measurement.COUNTS, edges_per_revolution=count.edges, single_channel=ways is not None
@@ -313,6 +319,7 @@ def _counts(form: CsvForm, info: Info, signals: Signals) -> Motion:
         *turned,
         *([] if bare is None else [COMMANDS_SIGN.format(form.motion)]),
         *([] if ways is None else [ONE_CHANNEL.format(form.motion)]),
+        *([ONE_CHANNEL_OR_LOAD.format(form.motion)] if stuck else []),
         *stalled,
         *reset,
         f"Sampled counts without time stamps: one count is {count.size:.6g} {form.unit}, {per_turn} per "

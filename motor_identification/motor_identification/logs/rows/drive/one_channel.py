@@ -26,6 +26,13 @@ ONE_CHANNEL = (
     "the direction is not in it. The motor is taken to turn as it is driven, and a fit reads the directions again by "
     "its motion (assumed; better: log a count of both channels)."
 )
+ONE_CHANNEL_OR_LOAD = (
+    "Caution: {} never goes back while the voltage drives as much one way as the other: it counts one channel, and the "
+    "direction is not in it, or a load or a brake keeps the motor from turning back. Do not trust kv; log a count of "
+    "both channels."
+)
+ALIKE = 0.1  # of its RMS, that a voltage's mean is at most which drives either way alike
+AS_FAR = 0.5  # of how far it goes one way, that it goes the other way at least
 # Time constants that are tried, from a tenth of a row, within which a motor is there, to a quarter of the longest run,
 # evenly by their logarithm.
 LAGS, SHORTEST = 32, 0.1
@@ -54,6 +61,22 @@ def find_ways(signals: Signals) -> Floats | None:
     if best_way is None or not both < BETTER * one_way or not _turns_both_ways(signals, best_way):
         return None
     return np.asarray(best_way, np.float64)
+
+
+def never_goes_back(signals: Signals) -> bool:
+    """Whether counts, or angles, go one way all the time under a voltage that drives as much one way as the other.
+
+    Voltages make up for friction and for speed in the mean, and inertia for nothing: a motor that goes one way has a
+    mean of its own.
+    """
+    steps = [np.diff(signals.motion[run]) for run in signals.runs.values()]
+    moved = np.concatenate(steps) if steps else np.zeros(0)
+    if np.count_nonzero(moved) < FEWEST or (np.any(moved < 0.0) and np.any(moved > 0.0)):
+        return False
+    volts = signals.voltage
+    low, high = -float(np.min(volts)), float(np.max(volts))
+    as_far = min(low, high) > AS_FAR * max(low, high)
+    return as_far and abs(float(np.mean(volts))) < ALIKE * float(np.sqrt(np.mean(volts**2)))
 
 
 def compare_signs(signals: Signals, steps: Floats) -> tuple[float, float]:

@@ -1,5 +1,6 @@
 """Counts of one channel, and those of a motor that never turns back: by a simulated motor of known direction."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ from motor_identification.cli.import_log import main
 from motor_identification.identify import Request
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.imported import import_log
-from motor_identification.logs.rows.drive.one_channel import EITHER_WAY, FEWEST, find_ways
+from motor_identification.logs.rows.drive.one_channel import ALIKE, EITHER_WAY, FEWEST, find_ways, never_goes_back
 from motor_identification.service.job import Job, run_job
 
 
@@ -71,3 +72,31 @@ def test_import_gives_counts_of_one_channel_their_way_and_a_fit_finds_the_motor(
     fit = run_job(Job(Source((str(tmp_path / "bag"),)), Request(effects=())))
     assert fit.parameters.values["kv"] == pytest.approx(KV, rel=0.02)
     assert fit.parameters.values["ka"] == pytest.approx(KV * TAU, rel=0.04)
+
+
+@pytest.mark.parametrize("seed", range(4_360_000, 4_360_004))
+def test_counts_that_never_go_back_under_a_voltage_of_either_way_are_told(seed: int) -> None:
+    """White noise of the voltage moves a slow motor so little that its counts do not tell which way it turned."""
+    rng = np.random.default_rng(seed)
+    volts = rng.choice([-4.0, 4.0], 600)
+    volts -= np.mean(volts)
+    turned = counted(volts, turn(volts))
+    assert never_goes_back(turned) and not never_goes_back(counted(volts, turn(volts), both=True))
+    down = replace(turned, motion=-turned.motion)
+    assert never_goes_back(down)
+    for mean, told in ((0.8 * ALIKE, True), (1.3 * ALIKE, False)):  # a mean of its own: it may have gone on one way
+        assert never_goes_back(replace(turned, voltage=volts + 4.0 * mean)) is told
+    braked = np.where(rng.permutation(600) < 150, 6.0, -2.0)  # which goes less than half as far
+    assert not never_goes_back(replace(turned, voltage=braked - np.mean(braked)))
+
+
+def test_a_log_says_that_its_counts_never_go_back(tmp_path: Path) -> None:
+    rng = np.random.default_rng(4_360_010)
+    volts = np.round(rng.uniform(-4.0, 4.0, 800), 3)
+    count = np.cumsum(rng.integers(0, 3, 800))
+    for sign, said in ((1, True), (np.where(np.arange(800) < 700, 1, -1), False)):
+        rows = [f"{k / 100},{volts[k]},{one}" for k, one in enumerate(np.cumsum(np.diff(count, prepend=0) * sign))]
+        path = tmp_path / f"log{said}.csv"
+        path.write_text("\n".join(["t,voltage,count", *rows]))
+        (motor,) = import_log(path, Said(edges_per_revolution=48)).motors
+        assert any("count never goes back while the voltage" in one for one in motor.log.findings) is said
