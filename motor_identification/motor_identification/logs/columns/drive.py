@@ -41,6 +41,9 @@ _BITS_8 = 255.0  # a duty of so many at most is called a voltage by some
 _OF_DUTY = " (of a duty, say --full-duty)"
 _STEADY_SUPPLY = 0.5  # of its largest value: a supply stays above, a motor's voltage passes 0
 MILLIVOLTS_FROM = 100.0  # such a supply is given in mV
+_BITS = words_of("bit bits")
+_TIMERS = words_of("8 9 10 11 12 13 14")  # of 16 bits a register may have a sign
+_TIMED = words_of("pwm duty")
 _STANDS = 0.01  # of the largest speed
 _WITH = 0.5  # correlation of what rises, or falls, with a speed
 _USUALLY = 0.9  # quantile: a converter's noise is above now and then
@@ -95,20 +98,20 @@ def duty_drive(heading: Heading, values: Floats, full: float | None = None) -> D
     if full:
         return Drive(None, f"as a duty of ±{full:g}", full)
     largest = float(np.max(np.abs(values), initial=0.0))
-    if _is_called_pulse(heading) and _PULSES[0] <= largest <= _PULSES[1]:
-        whose = "a servo's" if "servo" in heading.words else "an ESC's"
-        if not are_pulses(heading, values):
-            pulses = np.sort(np.abs(values[values != 0.0]))
-            digital = "as digital commands do (of DSHOT: --full-duty 2047 and --supply-voltage V)"
-            return Drive(None, f"goes from {pulses[0]:g} to {largest:g}, no pulse in µs but {digital}", sure=False)
-        return Drive(None, f"is {whose} pulse in µs and no duty, as it is 1000 or 1500 at 0 V", sure=False)
-    if heading.unit == "us" and not {"esc", "servo"} & set(heading.words):
-        return Drive(None, "is how long a pulse is in µs, and no number says how far they are apart", sure=False)
+    if _is_called_pulse(heading) and (pulse := _pulse_drive(heading, values, largest)):
+        return pulse
     if heading.unit == "%" and (largest > 1.0 or not np.any(values % 1.0)):
         return Drive(None, "as a duty in %", 100.0)
     if heading.unit == "%":  # which would be a motor that never gets 1 % of its supply
         return Drive(
             None, "as a share, as no value is above 1, whatever its name says (otherwise: --full-duty 100)", 1.0
+        )
+    if bits := _bits_by_name(heading.words, largest):
+        full_of_bits = 2.0**bits - 1.0
+        return Drive(
+            None,
+            f"as a duty of ±{full_of_bits:g} (assumed, of {bits} bits by its name; otherwise: --full-duty)",
+            full_of_bits,
         )
     if largest in FULL_WHERE_REACHED:
         levels = np.unique(np.abs(values[values != 0.0]))
@@ -119,6 +122,31 @@ def duty_drive(heading: Heading, values: Floats, full: float | None = None) -> D
     if heading.quantity is None and largest < 100.0 and not np.any(values % 1.0):  # of 100 or of 255: nothing tells
         return Drive(None, f"as a duty of ±{largest:g} (assumed; otherwise: --full-duty)", largest, sure=False)
     return _drive_by_largest(heading, values, largest)
+
+
+def _pulse_drive(heading: Heading, values: Floats, largest: float) -> Drive | None:
+    """What asks about pulses [µs] (K,), which are no share of the supply; None where they may be one."""
+    if _PULSES[0] <= largest <= _PULSES[1]:
+        if not are_pulses(heading, values):
+            least = float(np.min(np.abs(values[values != 0.0])))
+            digital = "as digital commands do (of DSHOT: --full-duty 2047 and --supply-voltage V)"
+            return Drive(None, f"goes from {least:g} to {largest:g}, no pulse in µs but {digital}", sure=False)
+        whose = "a servo's" if "servo" in heading.words else "an ESC's"
+        return Drive(None, f"is {whose} pulse in µs and no duty, as it is 1000 or 1500 at 0 V", sure=False)
+    if heading.unit == "us" and not {"esc", "servo"} & set(heading.words):
+        return Drive(None, "is how long a pulse is in µs, and no number says how far they are apart", sure=False)
+    return None
+
+
+def _bits_by_name(words: tuple[str, ...], largest: float) -> int:
+    """The bits of a timer that a name tells, up to the largest value of a column; 0 where it tells none.
+
+    `pwm 12 bit` does; `pwm10` may be a pin, whose 8 bits end at 255: beyond them 10 are meant.
+    """
+    told = [int(one) for one, unit in zip(words, words[1:], strict=False) if unit in _BITS and one in _TIMERS]
+    if not told and words[-1:] == ("10",) and words[-2:-1] and words[-2] in _TIMED and largest > _BITS_8:
+        told = [10]
+    return told[0] if len(told) == 1 and 1.0 < largest <= 2.0 ** told[0] - 1.0 else 0
 
 
 def are_pulses(heading: Heading, values: Floats) -> bool:

@@ -231,3 +231,27 @@ def test_a_supply_falls_where_the_motor_runs_faster(
     assert sags(values, least_duty + 1000.0 * share, 300.0 * share) == supply
     assert not sags(values, np.full(100, 1500.0), 300.0 * share)  # by no duty
     assert not sags(values, least_duty + 1000.0 * share, 300.0 * share + 50.0)  # it never stands
+
+
+@pytest.mark.parametrize(
+    ("name", "top", "full"),
+    [
+        ("pwm_10bit", 640.0, 1023.0),
+        ("pwm_10bit", 400.0, 1023.0),  # not of Pololu's drivers, which have no bits
+        ("PWM (12 bits)", 900.0, 4095.0),
+        ("duty_8bit", 200.0, 255.0),
+        ("pwm_8bit", 300.0, 1000.0),  # more than it has
+        ("pwm10", 256.0, 1023.0),
+        ("pwm10", 1023.0, 1023.0),
+        ("pwm10", 255.0, 255.0),  # a pin
+        ("pwm 12", 900.0, 1000.0),
+        ("pwm10_left", 900.0, 1000.0),
+        ("pwm_10bit", 0.8, 1.0),
+    ],
+)
+def test_the_bits_of_a_timer_by_a_name(name: str, top: float, full: float) -> None:
+    values = np.rint(top * WAVE) if top > 1.0 else top * WAVE
+    values[7] = top
+    drive = duty_drive(read_heading(name), values)
+    assert (drive.full, drive.sure) == (full, True)
+    assert duty_drive(read_heading(name), values, 500.0).full == 500.0
