@@ -96,7 +96,7 @@ def _read_motors(given: Table, said: Said) -> tuple[list[Motor], list[str]]:
     guess = guess_forms(filled.table, said)
     motors = []
     for form in guess.forms:
-        rows = filled.rows_of(form.time, form.motion, form.voltage, form.supply)
+        rows = filled.rows_of(form.time, form.motion, form.voltage, form.supply, form.direction)
         rows = wait_for_motion(rows, form)
         log = read_motor(replace(rows, notes=rows.notes[len(table.notes) :]), form)
         motors.append(Motor(form.label, replace(log, findings=(*log.findings, *describe_excitation(log)))))

@@ -8,6 +8,7 @@ from motor_identification.logs.columns.names.quantity import is_speed_by_words, 
 from motor_identification.logs.columns.names.words import find_device, find_side, split_words
 from motor_identification.logs.columns.vocabulary import (
     COUNTS_IN_BRACKETS,
+    DIRECTIONS,
     INPUTS,
     MEASURED,
     MOVES,
@@ -84,6 +85,11 @@ def _tell_by_field(name: str, quantity: Quantity | None) -> Quantity | None:
 def is_in_volts(heading: Heading) -> bool:
     """Whether a name says that its column is in volts, whatever else it says: `Tacho (V)`, `encoder_V`."""
     return heading.unit in ("V", "mV") or bool(_VOLTS_AT_THE_END.search(heading.name))
+
+
+def is_direction(name: str) -> bool:
+    """Whether a column's name says that it is the way in which a drive goes, `dir` or `reverse`."""
+    return bool(DIRECTIONS & set(read_heading(name).words))
 
 
 def is_of_joint_states(heading: Heading) -> bool:

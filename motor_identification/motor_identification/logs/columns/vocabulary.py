@@ -49,6 +49,9 @@ TAILS = _row(
     "hastighet hastighed spænding spänning"
 )
 
+# Which way a drive goes that has no sign.
+DIRECTIONS = _row("dir direction drehrichtung richtung sentido sens reverse reversed ccw cw")
+
 # How long something takes: a loop, a row. No motor is driven by it.
 DURATIONS = _row(
     "delay dt ts period latency interval retardo retraso periodo período atraso période periode délai verzögerung "

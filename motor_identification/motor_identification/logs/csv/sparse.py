@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_identification.logs.columns.clock import read_clock
-from motor_identification.logs.columns.heading import read_heading
+from motor_identification.logs.columns.heading import is_direction, read_heading
 from motor_identification.logs.columns.vocabulary import Quantity
 from motor_identification.logs.csv.table import GARBLED, Cells, Table
 from motor_model.errors import RecordingError
@@ -30,12 +30,14 @@ class Filled:
     table: Table
     told: Mapping[str, Bools]
 
-    def rows_of(self, time: str | None, motion: str, voltage: str, supply: str | None) -> Table:
+    def rows_of(
+        self, time: str | None, motion: str, voltage: str, supply: str | None, direction: str | None = None
+    ) -> Table:
         """The rows that have a time and a motion of their own and come after the first value of the other columns."""
         rows = np.ones(len(self.table), np.bool_)
         for name in (time or "", motion):
             rows &= self.told.get(name, rows)
-        held = [name for name in (voltage, supply or "") if name in self.told]
+        held = [name for name in (voltage, supply or "", direction or "") if name in self.told]
         rows[: max((int(np.argmax(self.told[name])) for name in held), default=0)] = False
         if rows.all():
             return self.table
@@ -50,7 +52,7 @@ class Filled:
         kept = self.table.rows(rows, "")
         cells = dict(kept.cells)
         for name in held:
-            cells[name] = self.table.numbers(name)[self._middles(time, np.flatnonzero(rows))]
+            cells[name] = np.asarray(self.table.column(name))[self._middles(time, np.flatnonzero(rows))]
         return replace(kept, cells=cells, notes=(*self.table.notes, *notes))
 
     def _middles(self, time: str | None, rows: Integers) -> Integers:
@@ -74,20 +76,24 @@ def fill_gaps(table: Table) -> Filled:
     of_others = mark_rare_senders(table)
     for name in table.names:
         quantity = read_heading(name).quantity
-        empty = mark_empty(table.column(name))
-        words = np.asarray(table.column(name)).dtype.kind != "f"
+        way, words = is_direction(name), np.asarray(table.column(name)).dtype.kind != "f"
+        empty = _mark_blank(table.column(name)) if way and words else mark_empty(table.column(name))
         few = np.count_nonzero(empty) <= GARBLED * len(table)
-        if (quantity is Quantity.OTHER and words) or (few and not np.any(empty & of_others)):
+        if (quantity is Quantity.OTHER and words and not way) or (few and not np.any(empty & of_others)):
             continue
         if empty.all():
             del cells[name]
             continue
         row = np.arange(len(table))
         own = row[~empty]
+        last = np.maximum(np.cumsum(~empty) - 1, 0)
+        if way:  # whose values may be words
+            cells[name], told[name] = np.asarray(table.column(name))[own][last], ~empty
+            continue
         if not (_are_numbers(table, name, own[:LOOKED_AT]) and _are_numbers(table, name, own)):
             continue
         values = table.rows(own, "").numbers(name)
-        held = values[np.maximum(np.cumsum(~empty) - 1, 0)]
+        held = values[last]
         cells[name] = np.interp(row, own, values) if quantity is Quantity.TIME else held
         told[name] = ~empty
     return Filled(replace(table, cells=cells), told)
@@ -113,6 +119,12 @@ def mark_empty(cells: Cells) -> Bools:
         return np.isnan(array) if array.dtype.kind == "f" else np.zeros(len(array), np.bool_)
     spelt = [word.encode() for word in NO_VALUE] if array.dtype.kind == "S" else sorted(NO_VALUE)
     return np.asarray(np.logical_or.reduce([array == word for word in spelt]))
+
+
+def _mark_blank(cells: Cells) -> Bools:
+    """Mark the cells of words, shape (K,), without any: `none` is a direction as well."""
+    array = np.asarray(cells)
+    return np.asarray(np.char.str_len(array) == 0 if array.dtype.kind in "SU" else np.zeros(len(array), np.bool_))
 
 
 def _are_numbers(table: Table, name: str, rows: NDArray[np.int64]) -> bool:

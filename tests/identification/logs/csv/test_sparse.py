@@ -96,3 +96,24 @@ def test_a_command_that_was_given_twice_holds() -> None:
     assert len(rows) == 400 - 121 - 1 and set(rows.numbers("command")) == {4.0}
     garbled = made(t=[str(k) for k in range(400)], command=["4.0"] * 400, position=angle)
     assert len(mend_table(garbled)) == 398
+
+
+@pytest.mark.parametrize("words", [("fwd", "rev"), ("1", "0"), ("forward", "none")])
+def test_a_direction_holds_until_the_next_as_its_duty_does(words: tuple[str, str]) -> None:
+    """Each is taken for the row of motion in which it holds mostly."""
+    count = 60
+    way = [words[k // 20 % 2] if k % 2 == 0 else "" for k in range(count)]
+    duty = [str(k) if k % 2 == 0 else "" for k in range(count)]
+    motion = ["" if k % 2 == 0 else str(k) for k in range(count)]
+    filled = fill_gaps(made(t=[str(k) for k in range(count)], duty=duty, dir=way, ticks=motion))
+    assert filled.told["dir"].sum() == count // 2
+    rows = filled.rows_of("t", "ticks", "duty", None, "dir")
+    drives, ways = rows.numbers("duty"), list(map(str, rows.column("dir")))
+    assert ways == [words[int(one) // 20 % 2] for one in drives]
+    assert rows.notes[-1] == f"dir has a value in {count // 2} of {count} rows: it holds until the next."
+
+
+def test_a_direction_without_gaps_stays_as_it_is() -> None:
+    table = made(t=[str(k) for k in range(60)], dir=["fwd", "none", "rev"] * 20, ticks=["", "3"] * 30)
+    filled = fill_gaps(table)
+    assert list(filled.table.column("dir")) == list(table.column("dir")) and list(filled.told) == ["ticks"]

@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from motor_identification.logs.columns.drive import drives
 from motor_identification.logs.columns.heading import Heading, read_heading
-from motor_identification.logs.columns.motion.direction import TOGETHER, WORDS
+from motor_identification.logs.columns.motion.direction import TOGETHER
 from motor_identification.logs.columns.roles.candidates import list_readable
 from motor_identification.logs.columns.said import Said
-from motor_identification.logs.columns.vocabulary import MOVES, Quantity, words_of
+from motor_identification.logs.columns.vocabulary import DIRECTIONS, MOVES, Quantity, words_of
 from motor_identification.logs.csv.table import Table
 
 Floats = NDArray[np.float64]
@@ -54,7 +54,7 @@ def join_half_bridge(table: Table, said: Said) -> Table:
     ):
         return table  # several motors, or another drive
     able = [one for one in headings if one.quantity in (None, Quantity.VOLTAGE, Quantity.DUTY)]
-    able = [one for one in able if not WORDS & set(one.words) and _may_be_pin(table, one.name)]
+    able = [one for one in able if not DIRECTIONS & set(one.words) and _may_be_pin(table, one.name)]
     for one, other in combinations(able, 2):
         beside = [heading for heading in headings if heading not in (one, other)]
         if not _are_of_two_sides(one, other) and _are_halves(table.numbers(one.name), table.numbers(other.name)):

@@ -11,14 +11,13 @@ from motor_identification.logs.columns.heading import read_heading
 from motor_identification.logs.columns.names.words import split_words
 from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.said import Pair, Said
-from motor_identification.logs.columns.vocabulary import words_of
+from motor_identification.logs.columns.vocabulary import DIRECTIONS, words_of
 from motor_identification.logs.csv.table import Table
 
 Floats = NDArray[np.float64]
 
 NONE = "-"  # instead of a column's name: there is none
 
-WORDS = words_of("dir direction drehrichtung richtung sentido sens reverse reversed ccw cw")
 FORWARD = words_of("1 1.0 +1 f fw fwd forward forwards cw high true vor vorwärts adelante avant")
 BACKWARD = words_of("0 0.0 -1 -1.0 r rev reverse b bw back backward backwards ccw low false zurück atras arrière")
 TWO_WAYS = frozenset(
@@ -65,7 +64,7 @@ def find_direction_column(table: Table, drive: str, side: str) -> str | None:
     if np.any(table.numbers(drive) < 0.0):
         return None
     named = [read_heading(name) for name in table.names if name != drive]
-    told = [one for one in named if WORDS & set(one.words) and len(_values(table, one.name)) in (2, 3)]
+    told = [one for one in named if DIRECTIONS & set(one.words) and len(_values(table, one.name)) in (2, 3)]
     own = [one for one in told if one.side == side] or [one for one in told if not one.side]
     return own[0].name if len(own) == 1 else None
 

@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 from motor_identification.logs.columns.clock import guess_time_unit
 from motor_identification.logs.columns.drive import drives
 from motor_identification.logs.columns.heading import Heading, read_heading
-from motor_identification.logs.columns.motion.direction import BACKWARD, NEITHER, WORDS, is_backward
+from motor_identification.logs.columns.motion.direction import BACKWARD, NEITHER, is_backward
 from motor_identification.logs.columns.said import Said
-from motor_identification.logs.columns.vocabulary import MOVES, Quantity, words_of
+from motor_identification.logs.columns.vocabulary import DIRECTIONS, MOVES, Quantity, words_of
 from motor_identification.logs.correlation import correlate
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import TIME_UNITS, Kind
@@ -150,7 +150,7 @@ def _share_of_rows(table: Table, headings: list[Heading], period: Floats, said: 
 
 def _give_signs(table: Table, headings: list[Heading], speed: Floats) -> tuple[Floats, str]:
     """Give speeds, shape (K,), the signs of the one column that tells a direction; as they are where none does."""
-    told = [one.name for one in headings if WORDS & set(one.words)]
+    told = [one.name for one in headings if DIRECTIONS & set(one.words)]
     driving = [one.name for one in headings if drives(one)]
     if len(told) != 1 or len(driving) != 1:
         return speed, ""
