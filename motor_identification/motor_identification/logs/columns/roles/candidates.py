@@ -1,6 +1,7 @@
 """Tell which columns of a table may have a role at all."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -9,6 +10,7 @@ from motor_identification.logs.columns.vocabulary import Quantity
 from motor_identification.logs.csv.table import Table
 from motor_model.errors import RecordingError
 
+LOOKED_AT = 200  # cells that tell quickly that a column holds words
 MOSTLY = 0.5  # of its cells are numbers: else it holds notes beside the table, whatever its name
 
 
@@ -26,9 +28,19 @@ def is_numeric(table: Table, name: str) -> bool:
 
 
 def list_readable(table: Table) -> list[Heading]:
-    """The headings of columns of which every cell is a number, as before gaps are filled not all are."""
-    numeric = [name for name in table.names if is_numeric(table, name) and bool(table.readable(name).all())]
-    return [read_heading(name) for name in numeric]
+    """List the headings of columns of which every cell is a number, as before gaps are filled not all are."""
+    return [read_heading(name) for name in table.names if _is_readable(table, name)]
+
+
+def _is_readable(table: Table, name: str) -> bool:
+    begin = replace(table, lines=table.lines[:LOOKED_AT], cells={name: table.column(name)[:LOOKED_AT]})
+    if not begin.readable(name).all():  # which is quick
+        return False
+    try:
+        table.numbers(name)
+    except RecordingError:
+        return False
+    return True
 
 
 def list_unnamed(table: Table, headings: Sequence[Heading]) -> list[str]:
