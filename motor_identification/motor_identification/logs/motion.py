@@ -199,7 +199,9 @@ def _about_count(form: CsvForm, signals: Signals, edges: int, window: float) -> 
     if edges:
         size = edge_angle(edges, form.gear) / window / unit
         return f"One count ({edges} per revolution) within the window is {size:.4g} {form.unit}."
-    step, noise, _ = find_noise(signals.motion * unit, signals.voltage, window)
+    step, noise, _ = find_noise(
+        signals.motion * unit, signals.voltage, window, gear=float(form.gear), uneven=_measure_unevenness(signals)
+    )
     if step > 0.0:
         frame = 0.0 if form.speed_window else _measure_frame(signals)
         counts = tau / (step * (frame or window)) / float(form.gear)
@@ -220,6 +222,12 @@ def _about_count(form: CsvForm, signals: Signals, edges: int, window: float) -> 
         f"{said}: noise of {noise / unit:.2g} {form.unit}, as between neighbours, is assumed "
         "(otherwise: --edges-per-revolution)."
     )
+
+
+def _measure_unevenness(signals: Signals) -> float:
+    """Measure the standard deviation of the lengths of the rows of the most uneven run, of the usual one."""
+    rows = [np.diff(signals.time[run]) for run in signals.runs.values()]
+    return max((float(np.std(one) / max(np.median(one), 1.0)) for one in rows if len(one)), default=0.0)
 
 
 def _count_held_rows(signals: Signals) -> int:

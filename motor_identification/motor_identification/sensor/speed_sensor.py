@@ -47,6 +47,10 @@ RANGES, BITS, SAME_RANGE = (1.0, 2.0, 2.5, 3.3, 5.0), (8, 10, 12, 13, 14, 16), 1
 # noise that is summed up. Measured: 0.02 to 0.07 of counts, 0.45 to 0.6 of tachogenerators whose noise is a step. And
 # of a count a turn, by which that is beside a whole one then: an eccentric disc is noise, too.
 MOST_SUMMED, WHOLE_COUNT = 0.3, 0.05
+# Of a count a turn, by which it is beside a whole one where only counts make it so: one step in 25 does by chance. And
+# of the usual speed, the noise of such values that rows of uneven lengths may make, which stamps need not show, and
+# times what they show: more is a motion that jumps. Measured: 0.05 to 0.09 of a motor of two rows that rubs.
+EXACT_COUNT, OF_HIDDEN_ROWS, OF_ROWS = 0.02, 0.03, 3.0
 OTHER_ROWS = 0.1  # relative: rows of one run that are not those of the log's typical one
 LEAST_COUNTED = 0.03  # of the time between values: a mean over less is an instant's value, and no count over it
 SHARPER = 0.7  # times what the multiples of a step scatter by: they are those of their own rows' lengths
@@ -97,12 +101,13 @@ def find_speed_sensor(recording: Recording) -> SpeedSensor:
     wrong, row, made = int(np.count_nonzero(~right)), row[right], made[right]
     counted = window > LEAST_COUNTED * (frame or recording.info.sample_period)
     said, gear = recording.info.edges_per_revolution, float(recording.info.gear)
+    lengths = np.diff(time, prepend=time[0] - window)[row]
+    lengths = np.where(lengths < LONGEST_ROW * window, lengths, window)
+    uneven = float(np.std(lengths)) / window
     if said:
         step, sigma, edges = recording.info.edge_angle / window, 0.0, said
     else:
-        step, sigma, edges = find_noise(speed[row], recording.voltage[row], window, counted, gear)
-    lengths = np.diff(time, prepend=time[0] - window)[row]
-    lengths = np.where(lengths < LONGEST_ROW * window, lengths, window)
+        step, sigma, edges = find_noise(speed[row], recording.voltage[row], window, counted, gear, uneven)
     if not said and frames is None and is_assumed(recording.info) and np.std(lengths) > SAME_ROW * window:
         by_length = speed[row] * lengths / window  # counts of rows that differ lie on a lattice by their own lengths
         own, sigma_of_own, counts = find_noise(by_length, recording.voltage[row], window, counted, gear)
@@ -142,12 +147,13 @@ def is_assumed(info: Info) -> bool:
 
 
 def find_noise(
-    values: Floats, voltage: Floats, window: float, counted: bool = True, gear: float = 1.0
+    values: Floats, voltage: Floats, window: float, counted: bool = True, gear: float = 1.0, uneven: float = 0.0
 ) -> tuple[float, float, int]:
     """Step [rad/s], white noise [rad/s] and counts a turn of the values; one of the first two is 0.
 
     counted: whether they may be counts, so that a lattice is one of counts and not what the values are rounded to.
-    gear: turns of the encoder's shaft, whose those counts are, per turn of the values.
+    gear: turns of the encoder's shaft, whose those counts are, per turn of the values. uneven: the standard deviation
+    of rows' lengths, of the usual one.
     """
     moving = mark_motion(values)
     step, noise = find_lattice(values), estimate_white_noise(values[moving], voltage[moving])
@@ -157,7 +163,23 @@ def find_noise(
     if counted and noise < beyond * COUNT_NOISE * step:
         return step, 0.0, round(tau / (step * window * gear))
     typical = sqrt(float(np.mean(values**2)))
+    jumps = noise > (OF_HIDDEN_ROWS + OF_ROWS * uneven) * typical
+    if counted and jumps and are_whole_counts(values, window * gear):
+        return step, 0.0, round(tau / (step * window * gear))
     return 0.0, max(noise, step / sqrt(12.0)) or UNTOLD * typical, 0
+
+
+def are_whole_counts(values: Floats, window: float) -> bool:
+    """Whether values (K,) [rad/s] are, to the digit, multiples of a step of which a turn has a whole number.
+
+    window: [s] in which counts would be so many a turn. Neither noise nor times between edges come to such values, nor
+    printed digits or a converter's steps but by chance.
+    """
+    step = find_lattice(values)
+    if step <= 0.0 or measure_scatter(np.abs(values), step) > EXACT_COUNT or _list_digits(values, step):
+        return False
+    turn = tau / (step * window)
+    return turn >= 1.0 - EXACT_COUNT and abs(turn - round(turn)) < EXACT_COUNT and not _is_last_bit(step)
 
 
 def are_converted(values: Floats, step: float, window: float) -> bool:

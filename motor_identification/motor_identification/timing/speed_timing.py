@@ -20,7 +20,7 @@ import numpy as np
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import Problem
 from motor_identification.recording import Floats, Recording
-from motor_identification.sensor.speed_sensor import find_speed_sensor, is_converted
+from motor_identification.sensor.speed_sensor import are_whole_counts, find_speed_sensor, is_converted
 from motor_identification.timing.error_likelihood import measure_log_likelihood
 from motor_identification.timing.held_until import held_until
 from motor_identification.timing.pulse_slot import (
@@ -195,6 +195,10 @@ def _find_periods(shaper: Shaper, other: Timing, least: float = -inf) -> Timing 
     """
     sensors = [find_speed_sensor(recording) for recording in shaper.recordings]
     counted = any(sensor.step > 0.0 or sensor.frame > 0.0 for sensor in sensors)
+    counted |= any(
+        are_whole_counts(one.speed, sensor.window * float(one.info.gear))
+        for one, sensor in zip(shaper.recordings, sensors, strict=True)
+    )
     coarse = are_coarse(shaper.recordings) or any(map(is_converted, shaper.recordings))
     if counted or coarse or not _are_open(shaper.recordings):
         return None
@@ -241,6 +245,7 @@ def _choose_instants(shaper: Shaper, slot: float) -> Timing:
 def _find_instants(shaper: Shaper) -> Timing | None:
     """Find when speeds were made of which nobody said it; what is assumed where the motion does not say otherwise.
 
+    Of a converter's steps that is an instant: half a row is a dead time to a motor that answers within some rows.
     None where the motion comes too early for any timing: nothing can be learned of it.
     """
     if not _are_open(shaper.recordings):
@@ -250,10 +255,13 @@ def _find_instants(shaper: Shaper) -> Timing | None:
     assumed = shaper.fit(ASSUMED)
     best, fitted = ASSUMED, assumed
     counted = all(find_speed_sensor(recording).step > 0.0 for recording in shaper.recordings)
+    converted = all(map(is_converted, shaper.recordings))
     early = assumed.delay <= least and not _are_voltages_said(shaper)
     others = [(timing, shaper.fit(timing)) for timing in (OTHERS if early else OTHERS[:1])]
     if early and others[-1][1].delay <= least and shaper.fit(TOO_EARLY).delay <= least:
         return None  # earlier than any row says: not for its timing
+    if converted and measure_gain(fitted.residuals, others[0][1].residuals) > -AS_LIKELY:
+        best, fitted = others[0]
     for timing, other in others:  # each makes the speeds younger than the one before, which is taken if as likely
         is_instant = timing is OTHERS[0]
         gain_of_row = LEAST_GAIN_OF_INSTANT if is_instant else LEAST_GAIN_OF_ROW

@@ -9,7 +9,7 @@ import numpy as np
 from motor_identification.recording import Recording
 from motor_identification.sensor.description import tells_of_speeds
 from motor_identification.sensor.pulses.pulse_periods import divide_slot
-from motor_identification.sensor.speed_sensor import find_counts, is_assumed
+from motor_identification.sensor.speed_sensor import find_counts, is_assumed, is_converted
 from motor_identification.timing.row_times import AS_STAMPED, RowTimes
 from motor_identification.timing.speed_filter import MEAN, SpeedFilter
 from motor_model.sample import Measurement
@@ -20,6 +20,10 @@ LEAST_DELAY = 0.05  # rows: with a longer dead time nothing comes too early
 TAKEN = (
     "The speeds are taken as {}: as means over the row before they fit the motion much worse "
     "(--speed-window {:.3g} --speed-lag {:.3g} says so to an import)."
+)
+CONVERTED = (
+    "The speeds are taken as {}, as a converter reads them: their steps are no counts of a turn (--speed-window {:.3g} "
+    "--speed-lag {:.3g} says so to an import)."
 )
 PERIODS = (
     "The speeds are taken as a slot of {:.3g} rad (some {:.3g} a turn) over the time between the latest two edges: the "
@@ -91,7 +95,8 @@ class Timing:
         if self.slot and is_open(recording):
             notes.append(PERIODS.format(self.slot, tau / self.slot))
         elif self.name and is_open(recording):
-            notes.append(TAKEN.format(self.name, self.window * row, timed.info.speed_lag))
+            text = CONVERTED if is_converted(recording) else TAKEN
+            notes.append(text.format(self.name, self.window * row, timed.info.speed_lag))
         if self.is_early and (is_open(recording) or is_voltage_open(recording)):
             notes.append(EARLY)
         if self.filter and self._smooths(recording, self.filter):

@@ -3,7 +3,13 @@
 import numpy as np
 import pytest
 
-from motor_identification.sensor.parabola_scatter import LEAST_WINDOWS, WINDOW, measure_scatter, measure_summed
+from motor_identification.sensor.parabola_scatter import (
+    BEYOND_COUNTS,
+    LEAST_WINDOWS,
+    WINDOW,
+    measure_scatter,
+    measure_summed,
+)
 
 
 def test_a_parabola_over_uneven_times_leaves_nothing() -> None:
@@ -40,6 +46,20 @@ def test_counts_stay_a_position_and_noise_walks_away() -> None:
     assert 0.01 < measure_summed(STEP * counts, STEP) < 0.12
     assert 0.4 < measure_summed(STEP * noisy, STEP) < 1.0
     assert measure_summed(STEP * counts[: LEAST_WINDOWS + WINDOW], STEP) == 0.0  # too few tell nothing
+
+
+@pytest.mark.parametrize(
+    ("noise", "rest", "run", "told"),
+    [(2.7, 25, 45, True), (2.7, 12, 45, False), (2.7, 45, 12, False), (1.0, 22, 45, False)],
+)
+def test_few_calm_windows_tell_only_noise_that_no_counting_makes(noise: float, rest: int, run: int, told: bool) -> None:
+    """A tachogenerator of 11 calm windows at rest and 23 above was said to be 56.107 counts a turn."""
+    jump = 1e4 * 2.0 ** np.arange(WINDOW)  # which leaves no window calm that it is in
+    speed = np.concatenate([np.zeros(rest), jump, np.full(run, 40.3)])
+    noisy = np.rint(speed + noise * np.random.default_rng(3).standard_normal(len(speed)))
+    counts = np.diff(np.floor(np.cumsum(speed)), prepend=0.0)
+    assert measure_summed(noisy, 1.0) > BEYOND_COUNTS if told else measure_summed(noisy, 1.0) == 0.0
+    assert measure_summed(counts, 1.0) == 0.0
 
 
 def test_counts_of_a_motor_that_always_gains_speed_tell_nothing() -> None:

@@ -7,6 +7,7 @@ from typing import cast
 
 import numpy as np
 import pytest
+from plant import record
 from recorded import as_speed, without_count
 from swinging import noisy, recorded
 
@@ -20,6 +21,7 @@ from motor_identification.sensor.speed_sensor import (
     UNTOLD,
     are_blurred,
     are_smoothed,
+    are_whole_counts,
     find_counts,
     find_noise,
     find_speed_sensor,
@@ -324,3 +326,38 @@ def test_more_counts_a_turn_than_any_encoder_has_are_digits(counts: int, counted
     assert edges == (counts if counted else 0) and (found > 0.0) is counted
     assert counted or sigma >= 0.99 * step / sqrt(12.0)
     assert find_noise(values, np.ones(1000), 0.001, gear=2.0)[2] == counts // 2
+
+
+@pytest.mark.parametrize("hold", [1, 2, 4])
+def test_a_motion_that_jumps_from_row_to_row_does_not_hide_that_speeds_are_whole_counts(hold: int) -> None:
+    """A motor of 19 ms that rubs, in rows of 10 ms: noise of a tenth of its speed was made of it, and a slot of 53°."""
+    levels = np.random.default_rng(hold).uniform(-9.0, 9.0, 300 // hold)
+    motor, drive = {"kv": 0.00213, "ka": 4.08e-5, "ks": 1.16}, (np.arange(len(levels)) * 0.01 * hold, levels)
+    log, _ = record(motor, *drive, seed=1, edges=175, sample_rate=100.0, single_channel=False)
+    counts = without_count(as_speed(log))
+    found = find_speed_sensor(counts)
+    assert (found.sigma, found.edges_per_revolution) == (0.0, 175) and are_whole_counts(counts.speed, 0.01)
+    other = replace(counts, speed=counts.speed * 175.0 / 175.1)  # no whole number a turn
+    assert find_speed_sensor(other).sigma > 0.0 and not are_whole_counts(other.speed, 0.01)
+    assert are_whole_counts(other.speed, 0.01 * 175.1 / 175.0)
+    noisy_counts = np.random.default_rng(2).normal(0.0, 0.1 * found.step, len(counts))
+    assert not are_whole_counts(counts.speed + noisy_counts, 0.01)
+
+
+@pytest.mark.parametrize(("noise", "uneven", "counted"), [(0.04, 0.0, True), (0.025, 0.0, False), (0.04, 0.01, False)])
+def test_noise_that_rows_may_make_is_no_motion(noise: float, uneven: float, counted: bool) -> None:
+    """Counts of rows of uneven lengths, divided by one for all, have noise that is a share of the speed."""
+    level = 500.0 + noise * 500.0 * np.random.default_rng(3).standard_normal(2000)
+    step = tau / 175 / 0.01
+    found, sigma, edges = find_noise(step * np.rint(level), np.ones(2000), 0.01, uneven=uneven)
+    assert (found > 0.0, edges, sigma == 0.0) == (counted, 175 if counted else 0, counted)
+
+
+@pytest.mark.parametrize(
+    ("step", "window", "whole"),
+    [(tau / 0.6, 0.01, True), (tau / 60.0, 0.01, False), (33.0 / 1024.0, tau * 1024.0 / 33.0 / 6000.0, False)],
+)
+def test_digits_and_a_converters_steps_may_be_whole_counts_by_chance(step: float, window: float, whole: bool) -> None:
+    """Whole rpm of rows of 10 ms are 6,000 of a turn."""
+    assert abs(tau / step / window - round(tau / step / window)) < 1e-6
+    assert are_whole_counts(step * np.rint(300.0 * np.sin(np.arange(500) / 9.0)), window) is whole

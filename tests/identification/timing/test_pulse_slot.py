@@ -192,6 +192,17 @@ def test_a_converters_steps_are_no_times_between_edges(converted: bool, monkeypa
     assert (speed_timing._find_periods(shaper, ASSUMED) is None) is converted
 
 
+@pytest.mark.usefixtures("without_ticks")
+@pytest.mark.parametrize("whole", [True, False])
+def test_whole_counts_a_turn_are_no_times_between_edges(whole: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Exact multiples of a count of 175 a turn were said to be a slot of 0.932 rad over the time between two edges."""
+    shaper = shaper_of(logged(48))
+    monkeypatch.setattr(speed_timing, "are_whole_counts", lambda *_: whole)
+    monkeypatch.setattr(speed_timing, "find_likeliest_slot", lambda *_: SlotGain(0.1, 100.0, 200))
+    monkeypatch.setattr(speed_timing, "measure_gain_over_lag", lambda *_: 1.0)
+    assert (speed_timing._find_periods(shaper, ASSUMED) is None) is whole
+
+
 @pytest.mark.usefixtures("unlike_lag")
 def test_a_slot_that_passes_many_times_in_a_row_is_an_instant(monkeypatch: pytest.MonkeyPatch) -> None:
     """A tachogenerator at 1 kHz had a slot of a thousandth of a row, and no noise then: its friction was not named."""

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from swinging import noisy, recorded
 
@@ -24,6 +25,14 @@ def test_a_timing_is_set_on_every_recording_and_said_of_the_first() -> None:
     assert first.info.speed_lag == second.info.speed_lag == 0.0
     assert second.notes == noisy(1.0, 1).notes and "taken as values" in first.notes[-1]
     assert "--speed-window 0.0004 --speed-lag 0 " in first.notes[-1]
+
+
+def test_a_converters_steps_are_said_to_be_read_at_once() -> None:
+    """Not that means fit worse, which these may not."""
+    plain = noisy(1.0)
+    steps = replace(plain, speed=5.0 / 1023.0 * np.rint(plain.speed / 0.05))
+    said = Timing(INSTANT, 0.0, "values").set_on([steps])[0].notes[-1]
+    assert "taken as values, as a converter reads them" in said and "--speed-window 0.0004 --speed-lag 0 " in said
 
 
 def test_smoothed_speeds_are_read_as_what_was_smoothed() -> None:
