@@ -8,6 +8,7 @@ import numpy as np
 from motor_identification.logs.columns.heading import read_heading
 from motor_identification.logs.count_size import (
     AGREE_SPEED,
+    LAST_DIGIT,
     agree_on_edges,
     count_size,
     doubt_counts,
@@ -40,6 +41,7 @@ from motor_identification.logs.signals import Floats, Integers, Signals
 from motor_identification.sensor.held_samples import count_held_rows, find_frames
 from motor_identification.sensor.pulses.timer_ticks import are_over_slots
 from motor_identification.sensor.running_mean import find_running_mean, size_of_count, take_single_rows
+from motor_identification.sensor.short_window import find_step_ratio, may_be_other_edges
 from motor_identification.sensor.speed_sensor import are_blurred, are_smoothed, find_noise
 from motor_identification.sensor.value_lattice import find_lattice
 from motor_model.errors import RecordingError
@@ -62,6 +64,10 @@ FED_BACK = (
     "positions, in which their rounding is not (assumed; otherwise: --speed-window)."
 )
 TIMED = "Speeds in {} are one angle over whole ticks of a timer each: they were timed between edges, not counted."
+STEPPED = (
+    "Caution: speeds are multiples of {:.4g} {}, {:.3g} counts of {} per revolution within a row: there are {:.4g} "
+    "(--edges-per-revolution), or a speed is counted for less than a row (--speed-window {:.3g})."
+)
 LARGEST_COUNT = 2**53  # counts and positions beyond are no whole numbers any more
 
 
@@ -109,9 +115,10 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
         counted = _count_rows(form, info, signals, one)
         return replace(counted, findings=(*signs, *turned, *means, *counted.findings))
     usual, uneven = find_window(signals, info.sample_period)
-    window = form.speed_window or usual
+    window, edges = form.speed_window or usual, form.edges_per_revolution or 0
+    shorter, stepped = (1.0, []) if form.speed_window else _find_shorter_window(form, values, edges, window)
+    window /= shorter
     lag = 0.5 * window if form.speed_lag is None else form.speed_lag
-    edges = form.edges_per_revolution or 0
     if form.count_quantum:
         turn = 2.0 * pi / float(form.gear)  # of the encoder's shaft
         edges = agree_on_edges(form, turn / (form.count_quantum * unit * window), AGREE_SPEED)
@@ -120,12 +127,14 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
         edges, smoothed = _confirm_edges(form, signals, edges, edge_angle(edges, form.gear) / window / unit, window)
     info = replace(info, measurement=Measurement.SPEED, speed_window=window, speed_lag=lag, edges_per_revolution=edges)
     row = "a row of the shortest" if uneven else "one sample period"
+    row = "one count within that is the step of the values" if shorter > 1.0 else row
     assumed = "" if form.speed_window else f" (assumed: {row}; otherwise: --speed-window)"
     placed = "" if form.speed_lag is not None else " (assumed: the window ends there; otherwise: --speed-lag)"
     findings = (
         f"Speeds without counts: each is the mean over {window * 1e3:.4g} ms{assumed}.",
         f"The middle of that window is {lag * 1e3:.4g} ms before the row's time{placed}.",
         *([uneven] if uneven and not form.speed_window else []),
+        *stepped,
         *(smoothed or [_about_count(form, signals, edges, window)]),
         *lengths,
         *signs,
@@ -133,6 +142,23 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
         *means,
     )
     return Motion(signals, values * unit, np.zeros(len(values), np.int64), info, findings)
+
+
+def _find_shorter_window(form: CsvForm, values: Floats, edges: int, row: float) -> tuple[float, list[str]]:
+    """Find how many times longer than its window a row [s] is, by the steps of speeds of said counts; 1 where it is it.
+
+    Speeds in counts have steps of one within their window, whatever a turn has; of others a turn may have been counted
+    by one flank of each slot, which a caution says. Farther off a unit is mistaken.
+    """
+    if not edges:
+        return 1.0, []
+    count = edge_angle(edges, form.gear) / row / (form.unit_size or 1.0)
+    ratio = find_step_ratio(values, count)
+    if not 0.0 < ratio < _FAR or abs(ratio * count / (printed_digit(values) or np.inf) - 1.0) < LAST_DIGIT:
+        return 1.0, []
+    if form.unit == "count/s" or not may_be_other_edges(ratio):
+        return ratio, []
+    return 1.0, [STEPPED.format(ratio * count, form.unit, ratio, edges, edges / ratio, row / ratio)]
 
 
 def _give_own_signs(form: CsvForm, signals: Signals) -> tuple[Signals, list[str]]:

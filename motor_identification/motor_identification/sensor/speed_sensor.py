@@ -218,6 +218,15 @@ def lies_between_counts(recording: Recording) -> bool:
     return between and not are_smoothed(speed, recording.voltage, step)
 
 
+def are_said_counts(recording: Recording) -> bool:
+    """Whether speeds of said counts are near to whole ones within their window, as no filter leaves them."""
+    info, moving = recording.info, mark_motion(recording.speed)
+    if info.measurement is not Measurement.SPEED or not info.edges_per_revolution or not moving.any():
+        return False
+    step = info.edge_angle / (info.speed_window or info.sample_period)
+    return float(np.mean(_mark_whole(recording.speed[moving], step))) > MOSTLY_WHOLE
+
+
 def find_counts(values: Floats, window: float) -> float:
     """Find the step that values (K,) [rad/s] are counts of within a window [s]; 0 of none, or of printed digits."""
     step = find_lattice(values)

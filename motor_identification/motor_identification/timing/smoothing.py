@@ -20,7 +20,7 @@ from motor_identification.noise.error_data import log_likelihood, make_error_dat
 from motor_identification.noise.error_learning import learn_error_model
 from motor_identification.recording import Recording
 from motor_identification.sensor.held_samples import find_frames
-from motor_identification.sensor.speed_sensor import find_counts, lies_between_counts
+from motor_identification.sensor.speed_sensor import are_said_counts, find_counts, lies_between_counts
 from motor_identification.sensor.value_lattice import find_lattice, measure_scatter
 from motor_identification.timing.shaped_fit import Shaper
 from motor_identification.timing.speed_filter import BILINEAR, KINDS, LEAST_ROWS, MEAN, MEMORY, SpeedFilter
@@ -97,14 +97,14 @@ def _choose_by_timing(
     """
     for one in each:
         best, sure = _choose_filter(one, means, are_open)
-        if best is not None and (sure or _is_worth_it(each, one, best)):
+        if best is not None and (sure or _is_worth_it(each, one, best)) and one.is_driven(best):
             return one, best, sure
     return None
 
 
 def _are_counts(recordings: Sequence[Recording]) -> bool:
     """Whether speeds lie on a lattice of counts as they are: then they passed no poles, but a mean perhaps."""
-    return any(find_counts(one.speed, one.sample_period) > 0.0 for one in recordings)
+    return any(find_counts(one.speed, one.sample_period) > 0.0 or are_said_counts(one) for one in recordings)
 
 
 def _choose_filter(likelihood: "Likelihood", means: Sequence[int], are_open: bool) -> tuple[SpeedFilter | None, bool]:
@@ -168,6 +168,7 @@ class Likelihood:
     def __init__(self, shaper: Shaper, timing: Timing, count: int = 0) -> None:
         self.shaper, self.timing, self.count = shaper, timing, count
         self._known: dict[SpeedFilter | None, float] = {}
+        self._torque: dict[SpeedFilter | None, float] = {}
 
     def of(self, passed: SpeedFilter | None) -> float:
         """Compute its logarithm, as of as many speeds as were used without a filter."""
@@ -178,6 +179,16 @@ class Likelihood:
     def of_kind(self, kind: str, number: float) -> float:
         """Compute the same, by a kind of filter and its number."""
         return self.of(_make(kind, number))
+
+    def is_driven(self, passed: SpeedFilter | None) -> bool:
+        """Decide whether what moves the motor behind a filter is its voltage, and no random torque beyond that.
+
+        A memory that is longer than the motion's rise makes a first jump of it, which no voltage makes.
+        """
+        self.of(passed)
+        return self._torque.get(passed, 0.0) <= max(
+            float(np.max(np.abs(one.voltage))) for one in self.shaper.recordings
+        )
 
     def of_lag(self) -> float:
         """Compute the same without a filter, beside what lags in a motor."""
@@ -194,7 +205,10 @@ class Likelihood:
         ]
         durations = np.concatenate([row.duration for row in rows])
         self.count = self.count or len(durations)
-        value = log_likelihood(rows, learn_error_model(rows, estimate.lag), estimate.lag)
+        errors = learn_error_model(rows, estimate.lag)
+        value = log_likelihood(rows, errors, estimate.lag)
+        if not beside:
+            self._torque[passed] = errors.rms_voltage
         first = passed.log_first if passed else 0.0
         if self.shaper.rows.nominal:  # what was logged is a count over one period for all rows
             durations = np.full(len(durations), float(np.median(durations)))

@@ -237,3 +237,31 @@ def test_counts_a_second_that_were_smoothed_are_no_counts(weights: tuple[float, 
     assert motion.info.edges_per_revolution == (500 if kept else 0)
     assert any("they were smoothed, or timed" in line for line in motion.findings) != kept
     assert motion.speed == pytest.approx(values * tau / 500)
+
+
+@pytest.mark.parametrize(
+    ("unit", "ratio", "said", "window"),
+    [
+        ("count/s", 5.0, None, 0.004),
+        ("count/s", 2.0, None, 0.01),  # whatever a turn has
+        ("rad/s", 5.0, None, 0.004),
+        ("rad/s", 2.0, None, 0.02),  # or a turn has half the edges
+        ("rad/s", 1.0, None, 0.02),
+        ("rad/s", 5.0, 0.02, 0.02),
+    ],
+)
+def test_speeds_of_said_counts_were_counted_for_as_long_as_their_steps_say(
+    unit: str, ratio: float, said: float | None, window: float
+) -> None:
+    """Counts of 10 ms in rows of 50 were read as means over the row, and as smoothed for 983 ms then."""
+    random = np.random.default_rng(4)
+    counts = np.floor(40.0 / ratio * (1.0 - np.exp(-np.arange(60) / 2.0)) * 5.0 + random.uniform(0.0, 1.0, 60))
+    counts[20:40] = np.floor(0.55 * counts[20:40])
+    step = ratio / 0.02 * (1.0 if unit == "count/s" else tau / 1320)
+    form = replace(SPEED, unit=unit, edges_per_revolution=1320, speed_window=said)
+    motion = read(form, [float(one) for one in step * counts * (1.0 - 1e-4 * random.random(60))])
+    assert motion.info.speed_window == pytest.approx(window, rel=0.002) and motion.info.edges_per_revolution == 1320
+    assert motion.info.speed_lag == pytest.approx(0.5 * window, rel=0.002)
+    told = " ".join(motion.findings)
+    assert ("one count within that is the step of the values" in told) is (window < 0.02)
+    assert ("2 counts of 1320 per revolution within a row: there are 660" in told) is (unit == "rad/s" and ratio == 2.0)

@@ -26,6 +26,7 @@ from motor_identification.monitoring.model_gap import Model, find_changes, measu
 from motor_identification.recording import Recording, check
 from motor_identification.reporting.fit_model_file import save_model
 from motor_identification.reporting.model_comparison import Identified
+from motor_identification.sensor.speed_sensor import are_said_counts
 from motor_identification.sensor.value_lattice import find_lattice
 from motor_identification.timing import smoothing
 from motor_identification.timing.shaped_fit import Shaper
@@ -318,6 +319,31 @@ def test_a_filter_that_goes_on_where_the_search_ends_is_none(best: float, found:
     passed, sure = _choose_poles(likelihood, MEMORY, are_open=True)
     assert (passed is not None) is found and not sure
     assert passed is None or passed.number == pytest.approx(best, abs=0.01)
+
+
+@pytest.mark.parametrize(("strength", "found"), [(0.9, True), (1.1, False)])
+def test_a_filter_behind_which_a_torque_beyond_the_voltage_moves_the_motor_is_none(
+    strength: float, found: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of 63 % of a step in 150 ms a filter of 983 ms was made, and a random torque of 4.8 V under a voltage of 3 V."""
+    log = without_count(as_speed(recorded(edges=96)))
+    most = float(np.max(np.abs(log.voltage)))
+    likelihood = Likelihood(cast(Shaper, SimpleNamespace(recordings=[log])), ASSUMED)
+    passed = SpeedFilter(MEMORY, 0.95)
+    likelihood._known[passed], likelihood._torque[passed] = 0.0, strength * most
+    assert likelihood.is_driven(passed) is found
+    monkeypatch.setattr(smoothing, "_choose_filter", lambda *_: (passed, True))
+    assert (smoothing._choose_by_timing([likelihood], (), True) is not None) is found
+
+
+@pytest.mark.parametrize(("window", "counts"), [(0.02, True), (0.0137, False)])
+def test_said_counts_within_their_window_passed_no_filter(window: float, counts: bool) -> None:
+    """Though the time that was measured for each blurs them, so that they lie on no lattice to the digit."""
+    log = as_speed(recorded(edges=96))
+    blur = 1.0 - 0.002 * np.random.default_rng(5).random(len(log))
+    log = replace(log, speed=log.speed * blur, info=replace(log.info, speed_window=window))
+    assert are_said_counts(log) is counts and not are_said_counts(without_count(log))
+    assert smoothing._are_counts([replace(log, speed=log.speed + 0.0)]) or not counts
 
 
 def test_a_few_values_lie_on_any_lattice() -> None:
