@@ -123,6 +123,13 @@ class SpeedFilter:
         poles = self.poles
         return np.asarray(_filter(poles, [np.sum(poles)], speed - speed[0]) + speed[0])
 
+    def measure_delay_left(self, speed: Floats) -> float:
+        """Measure how late [rows] what is computed back of speeds (K,) is, but for counts: zeros are pulled in."""
+        means = KINDS[self.kind].means(self.number)
+        if all(_count_single_rows(speed, rows) is not None for rows in means):
+            return 0.0
+        return sum(0.5 * (rows - 1) - float(np.arange(rows) @ _make_zeros(rows)) for rows in means)
+
     @property
     def log_first(self) -> float:
         """The logarithm of what a speed counts in its own row: the density of what came out is that of x over it."""
@@ -163,12 +170,23 @@ def undo_mean(values: Floats, rows: int) -> Floats:
     Counts are whole. Of others, what was in the first rows, before the log, is missing in every so many rows, less from
     time to time. How much shows beside the mean around each row. Rounded digits that are taken for counts walk away.
     """
-    around = np.interp(np.arange(len(values)) + 0.5 * (rows - 1), np.arange(len(values)), values)
-    went_in = _undo_forgetting(values, rows, around)
+    counted = _count_single_rows(values, rows)
+    return _undo_forgetting(values, rows, _find_around(values, rows)) if counted is None else counted
+
+
+def _count_single_rows(values: Floats, rows: int) -> Floats | None:
+    """Compute the counts of single rows (K,), in the values' unit, of means of so many rows each; None of others."""
     counted = take_single_rows(values, rows)
-    if counted is not None and np.std(counted - around) <= WALK * np.std(went_in - around):
-        return counted
-    return went_in
+    if counted is None:
+        return None
+    around = _find_around(values, rows)
+    walks = np.std(counted - around) > WALK * np.std(_undo_forgetting(values, rows, around) - around)
+    return None if walks else counted
+
+
+def _find_around(values: Floats, rows: int) -> Floats:
+    """Find the mean around each row (K,), of means of so many rows before each."""
+    return np.asarray(np.interp(np.arange(len(values)) + 0.5 * (rows - 1), np.arange(len(values)), values))
 
 
 def _undo_pulled_in(values: Floats, rows: int) -> Floats:

@@ -60,14 +60,16 @@ class Timing:
         return tuple(timed)
 
     def _set(self, recording: Recording) -> Recording:
+        left = 0.0
         if self.filter and self._smooths(recording, self.filter):
+            left = self.filter.measure_delay_left(recording.speed)
             recording = replace(recording, speed=self.filter.undo(recording.speed, recording.time))
         if self.is_early and is_voltage_open(recording):
             return _hold_until(recording)
         if not is_open(recording):
             return recording
         recording = self.rows.set_on(recording)
-        row, lag = recording.info.sample_period, self.lag
+        row, lag = recording.info.sample_period, self.lag + left
         if self.is_early:
             recording, lag = _hold_until(recording), lag + 1.0
         if self.slot > 0.0:

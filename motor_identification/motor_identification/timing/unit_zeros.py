@@ -18,11 +18,12 @@ from motor_identification.timing.speed_filter import LEAST_ROWS, MEAN, MOST_ROWS
 
 PAST = 6  # speeds and voltages before that predict the next one
 # Of log likelihood, in all and a row. Measured: 0.03 to 0.8 a row behind a mean; 0.005 at most, and 21 in all, in fifty
-# logs of real motors and a hundred simulated ones without.
+# logs of real motors and a hundred simulated ones without; 10 in all in 1,200 of 60 to 260 rows.
 LEAST_GAIN, LEAST_GAIN_OF_ROW = 20.0, 0.02
-LEAST_SPEEDS = 200
+LEAST_SPEEDS = 60
 MOST_SPEEDS = 20_000  # of a recording that are looked at
-LONGEST = 0.1  # of a recording: a mean
+# Of a recording, a mean, or so many rows of any: of which less is looked at half of a mean is found, as far as it goes.
+LONGEST, SHORT = 0.1, 12
 
 
 def find_means(recordings: Sequence[Recording]) -> tuple[int, ...]:
@@ -39,7 +40,7 @@ def find_means(recordings: Sequence[Recording]) -> tuple[int, ...]:
     count = int(np.count_nonzero(moving))
     if count < LEAST_SPEEDS:
         return ()
-    most = min(MOST_ROWS, int(LONGEST * len(speed)))
+    most = min(MOST_ROWS, max(int(LONGEST * len(speed)), SHORT))
     cost = {rows: _measure_cost(_undo(speed, rows, number), voltage, moving, rows) for rows in range(1, most + 1)}
     least = max(LEAST_GAIN / count, LEAST_GAIN_OF_ROW)
     likely = {min(cost, key=lambda rows: cost[rows]), LEAST_ROWS}

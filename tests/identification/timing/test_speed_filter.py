@@ -118,3 +118,18 @@ def test_digits_are_no_counts_of_a_mean(monkeypatch: pytest.MonkeyPatch) -> None
     right = np.std(undo_mean(came_out, 2) - went_in)
     monkeypatch.setattr(speed_filter, "WALK", 100.0)
     assert np.std(undo_mean(came_out, 2) - went_in) > 2.0 * right
+
+
+@pytest.mark.parametrize(("rows", "late"), [(2, 0.0064), (6, 0.0249), (20, 0.0853)])
+def test_what_is_computed_back_of_a_mean_is_as_late_as_its_zeros_are_pulled_in(rows: int, late: float) -> None:
+    """A transport delay of half a millisecond was made of it. Counts are computed back to the row."""
+    passed = SpeedFilter(MEAN, rows)
+    went_in = 0.1 * np.arange(4000.0) + 0.0137 * np.sin(np.arange(4000.0))
+    came_out = lfilter(np.full(rows, 1.0 / rows), [1.0], went_in)
+    assert passed.measure_delay_left(came_out) == pytest.approx(late, rel=0.03)
+    lag = went_in - passed.undo(came_out)
+    assert np.mean(lag[2000:]) / 0.1 == pytest.approx(late, rel=0.03)
+    counts = np.floor(20.0 + 15.0 * np.sin(np.arange(4000.0) / 90.0) + np.random.default_rng(1).uniform(0.0, 1.0, 4000))
+    counts[:rows] = 0.0
+    assert passed.measure_delay_left(lfilter(np.full(rows, 1.0 / rows), [1.0], counts)) == 0.0
+    assert SpeedFilter(MEMORY, 0.8).measure_delay_left(came_out) == 0.0

@@ -7,7 +7,7 @@ import pytest
 from swinging import noisy, recorded
 
 from motor_identification.recording import check
-from motor_identification.timing.speed_filter import MEMORY, SpeedFilter
+from motor_identification.timing.speed_filter import MEAN, MEMORY, SpeedFilter
 from motor_identification.timing.timing import ASSUMED, INSTANT, Timing, read_again
 
 
@@ -48,3 +48,11 @@ def test_smoothed_speeds_are_read_as_what_was_smoothed() -> None:
     assert read_again(logged, None) is logged
     stamped = recorded()
     assert read_again(stamped, timing) == stamped
+
+
+def test_what_a_mean_leaves_of_its_delay_is_in_the_lag_of_what_went_in() -> None:
+    logged = noisy(0.3)
+    passed = SpeedFilter(MEAN, 10)
+    mean = replace(logged, speed=np.convolve(logged.speed, np.full(10, 0.1))[: len(logged)])
+    lag = read_again(mean, replace(ASSUMED, filter=passed)).info.speed_lag
+    assert lag - logged.info.speed_lag == pytest.approx(passed.measure_delay_left(mean.speed) * 0.02) and lag > 0.0105

@@ -54,6 +54,21 @@ def test_where_there_is_no_mean_none_is_found() -> None:
     assert find_means([few]) == (30,) and find_means([few.at_rows(np.arange(280))]) == ()
 
 
+@pytest.mark.parametrize(("count", "found"), [(150, (6,)), (80, (6,)), (50, ())])
+def test_a_mean_shows_in_a_short_log(count: int, found: tuple[int, ...]) -> None:
+    """Of 150 rows the mean of six was taken for two filters in series, and kv was 23 % off."""
+    logged = filtered(noisy(0.5), np.full(6, 1.0 / 6.0))
+    assert find_means([logged.at_rows(np.arange(count))]) == found
+    assert find_means([check(noisy(0.5)).at_rows(np.arange(count))]) == ()
+
+
+@pytest.mark.parametrize(("rows", "found"), [(12, (12,)), (14, ())])
+def test_a_short_log_shows_a_mean_of_a_dozen_rows(rows: int, found: tuple[int, ...]) -> None:
+    """Not half of it, which goes half the way."""
+    logged = filtered(noisy(0.5, seed=1), np.full(rows, 1.0 / rows)).at_rows(np.arange(100))
+    assert find_means([logged]) == found
+
+
 @pytest.mark.parametrize(("limit", "value"), [("LEAST_GAIN", 1e4), ("LEAST_GAIN_OF_ROW", 1.0), ("LEAST_SPEEDS", 2000)])
 def test_every_limit_decides(limit: str, value: float, monkeypatch: pytest.MonkeyPatch) -> None:
     logged = filtered(noisy(0.5), [0.5, 0.5])
