@@ -44,6 +44,7 @@ from motor_identification.sensor.running_mean import find_running_mean, size_of_
 from motor_identification.sensor.short_window import find_step_ratio, may_be_other_edges
 from motor_identification.sensor.speed_sensor import are_blurred, are_smoothed, find_noise
 from motor_identification.sensor.value_lattice import find_lattice
+from motor_identification.timing.unit_zeros import measure_gain_of_mean
 from motor_model.errors import RecordingError
 from motor_model.gearing.gear import edge_angle
 from motor_model.sample import Info, Measurement
@@ -68,6 +69,9 @@ STEPPED = (
     "Caution: speeds are multiples of {:.4g} {}, {:.3g} counts of {} per revolution within a row: there are {:.4g} "
     "(--edges-per-revolution), or a speed is counted for less than a row (--speed-window {:.3g})."
 )
+# Of log likelihood, by which speeds are means of what single rows counted rather than counts of rows, which most are.
+# Measured: 3 and more of 97 % of 241 short logs of such means, less than 0 of 9 of 500 of plain counts that fit one.
+LIKELIER = 3.0
 LARGEST_COUNT = 2**53  # counts and positions beyond are no whole numbers any more
 
 
@@ -178,6 +182,11 @@ def _undo_running_mean(signals: Signals, period: float) -> tuple[Signals, list[s
         regular = len(steps) > 0 and float(np.max(np.abs(steps - period))) < 0.5 * period
         rows = find_running_mean(signals.motion[run]) if regular else 0
         single = take_single_rows(signals.motion[run], rows) if rows else None
+        if (
+            single is not None
+            and measure_gain_of_mean(signals.motion[run], single, signals.voltage[run], rows) < LIKELIER
+        ):
+            single = None  # counts of short logs fit a window by chance, but are not likelier by it
         found.add(rows if single is not None else 0)
         motion[run] = signals.motion[run] if single is None else single
     rows = found.pop() if len(found) == 1 else 0

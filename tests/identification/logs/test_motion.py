@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from motor_identification.logs import motion as motion_module
 from motor_identification.logs.count_size import FINE, MOST_EDGES
 from motor_identification.logs.form import CsvForm, Kind
 from motor_identification.logs.motion import Motion, read_motion
@@ -145,6 +146,17 @@ def test_running_means_of_counts_are_taken_back_to_single_rows() -> None:
     assert (motion.info.speed_window, motion.info.speed_lag) == (0.02, 0.01)
     assert any(line.startswith("Speeds are running means of 10 rows, as their counts") for line in motion.findings)
     assert read(replace(SPEED, speed_window=0.2), means).speed.tolist() == means
+
+
+@pytest.mark.parametrize(("gain", "taken"), [(3.1, True), (2.9, False)])
+def test_counts_that_are_less_likely_as_means_are_those_of_their_rows(
+    gain: float, taken: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """75 rows of plain counts were taken for means of two, and a friction was named that there was not."""
+    monkeypatch.setattr(motion_module, "measure_gain_of_mean", lambda *_: gain)
+    angles = np.cumsum(np.where(np.arange(900) < 50, 0.0, 6.3 + 4.0 * np.sin(np.arange(900) / 30.0)))
+    means = np.convolve(np.diff(np.floor(angles), prepend=0.0), np.full(4, 0.25))[:900] * tau / 100 / 0.02
+    assert any(line.startswith("Speeds are running means") for line in read(SPEED, means.tolist()).findings) is taken
 
 
 @pytest.mark.parametrize("digits", [9, 1])

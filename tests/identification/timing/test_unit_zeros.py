@@ -10,7 +10,7 @@ from swinging import noisy, recorded
 
 from motor_identification.recording import Recording, check
 from motor_identification.timing import unit_zeros
-from motor_identification.timing.unit_zeros import find_means
+from motor_identification.timing.unit_zeros import find_means, measure_gain_of_mean
 
 
 def filtered(recording: Recording, numerator: object, denominator: object = (1.0,)) -> Recording:
@@ -75,3 +75,19 @@ def test_every_limit_decides(limit: str, value: float, monkeypatch: pytest.Monke
     assert find_means([logged]) == (2,)
     monkeypatch.setattr(unit_zeros, limit, value)
     assert find_means([logged]) == ()
+
+
+@pytest.mark.parametrize("rows", [2, 4])
+@pytest.mark.parametrize("seed", range(3))
+def test_plain_counts_are_less_likely_as_means_and_means_are_likelier(rows: int, seed: int) -> None:
+    """What is had back of plain counts goes to and fro with the window's period."""
+    log = without_count(as_speed(recorded(seed, edges=96)))
+    log = log.at_rows(np.arange(400))
+    single, weights = log.speed, np.full(rows, 1.0 / rows)
+    means = np.convolve(single, weights)[: len(single)]
+    assert measure_gain_of_mean(means, single, log.voltage, rows) > 15.0
+    had_back = lfilter([1.0], weights, single)
+    assert np.convolve(had_back, weights)[: len(single)] == pytest.approx(single)
+    assert measure_gain_of_mean(single, had_back, log.voltage, rows) < -3.0
+    few = slice(0, 28 + unit_zeros.PAST)
+    assert measure_gain_of_mean(means[few], single[few], log.voltage[few], rows) == 0.0
