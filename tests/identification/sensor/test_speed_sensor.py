@@ -190,6 +190,22 @@ def test_the_steps_of_a_converter_of_volts_are_known(step: float, converted: boo
     assert is_converted(replace(plain, speed=speed)) is converted
 
 
+@pytest.mark.parametrize(
+    ("turn", "noise", "converted"), [(1871.37, 9.0, True), (1871.0, 9.0, False), (1871.37, 0.0, False)]
+)
+def test_steps_far_below_noise_that_no_turn_has_a_number_of_are_a_converters(
+    turn: float, noise: float, converted: bool
+) -> None:
+    """A tachogenerator in rows that jitter was said to be a slot of 0.02 rad over the time between two edges."""
+    random, step = np.random.default_rng(6), tau / turn / 0.02
+    log = recorded(3)
+    level = 300.0 * np.sin(np.arange(len(log)) / 90.0) + noise * random.standard_normal(len(log))
+    log = without_count(replace(as_speed(log), speed=np.round(step * np.rint(level), 4)))
+    assert is_converted(log) is converted
+    assert not is_converted(replace(log, speed=log.speed + 0.3 * step * random.standard_normal(len(log))))  # no steps
+    assert not is_converted(replace(log, speed=0.01 * np.rint(log.speed / step)))  # printed digits
+
+
 @pytest.mark.parametrize(("near", "counts"), [(1e-5, 0), (3.5e-4, 12562)])
 def test_counts_that_come_near_to_a_digit_keep_the_motion_between_rows(near: float, counts: int) -> None:
     """Where speeds change by counts a row, a lattice of digits is taken for noise; one of 0.10003 rad/s is none."""
