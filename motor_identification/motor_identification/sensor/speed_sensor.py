@@ -194,17 +194,20 @@ def are_converted(values: Floats, step: float, window: float) -> bool:
 def is_converted(recording: Recording) -> bool:
     """Whether a recording's speeds are the steps of a converter: of a usual range in volts, or behind a noisy sensor.
 
-    Or far below noise, so that they are no counts, and neither a whole number of a turn nor printed digits. Times
-    between edges, whose quotients lie on no such steps, they are not either.
+    Times between edges, whose quotients lie on no such steps, they are not either.
     """
     step, window = find_lattice(recording.speed), recording.info.speed_window or recording.info.sample_period
-    if step <= 0.0 or _list_digits(recording.speed, step):
-        return step > 0.0 and are_converted(recording.speed, step, window * float(recording.info.gear))
-    if _is_last_bit(step) or are_converted(recording.speed, step, window * float(recording.info.gear)):
-        return True
-    turn = tau / (step * window * float(recording.info.gear))
-    no_counts = abs(turn - round(turn)) > EXACT_COUNT and not recording.info.edges_per_revolution
-    return no_counts and not are_blurred(recording.speed, step) and find_speed_sensor(recording).sigma > 0.0
+    of_volts = _is_last_bit(step) and not _list_digits(recording.speed, step)
+    return of_volts or are_converted(recording.speed, step, window * float(recording.info.gear))
+
+
+def lies_on_steps(values: Floats) -> bool:
+    """Whether values (K,) [rad/s] are multiples of a step that is no printed digit: of counts, or a converter's.
+
+    However noisy. Times between edges, whose quotients lie on no such steps, they are not.
+    """
+    step = find_lattice(values)
+    return step > 0.0 and not are_blurred(values, step) and not _list_digits(values, step)
 
 
 def lies_between_counts(recording: Recording) -> bool:

@@ -20,7 +20,7 @@ import numpy as np
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import Problem
 from motor_identification.recording import Floats, Recording
-from motor_identification.sensor.speed_sensor import are_whole_counts, find_speed_sensor, is_converted
+from motor_identification.sensor.speed_sensor import find_speed_sensor, is_converted, lies_on_steps
 from motor_identification.timing.error_likelihood import measure_log_likelihood
 from motor_identification.timing.held_until import held_until
 from motor_identification.timing.pulse_slot import (
@@ -195,12 +195,9 @@ def _find_periods(shaper: Shaper, other: Timing, least: float = -inf) -> Timing 
     """
     sensors = [find_speed_sensor(recording) for recording in shaper.recordings]
     counted = any(sensor.step > 0.0 or sensor.frame > 0.0 for sensor in sensors)
-    counted |= any(
-        are_whole_counts(one.speed, sensor.window * float(one.info.gear))
-        for one, sensor in zip(shaper.recordings, sensors, strict=True)
-    )
+    stepped = any(lies_on_steps(one.speed) for one in shaper.recordings) and not list_tick_slots(shaper.recordings)
     coarse = are_coarse(shaper.recordings) or any(map(is_converted, shaper.recordings))
-    if counted or coarse or not _are_open(shaper.recordings):
+    if counted or stepped or coarse or not _are_open(shaper.recordings):
         return None
     instants = (OTHERS[0], OTHERS[2]) if other.is_early and not _are_voltages_said(shaper) else (OTHERS[0],)
     found, timing = max(

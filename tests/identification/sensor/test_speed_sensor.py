@@ -27,6 +27,7 @@ from motor_identification.sensor.speed_sensor import (
     find_speed_sensor,
     is_converted,
     lies_between_counts,
+    lies_on_steps,
 )
 from motor_identification.sensor.value_lattice import are_whole_products
 
@@ -190,20 +191,17 @@ def test_the_steps_of_a_converter_of_volts_are_known(step: float, converted: boo
     assert is_converted(replace(plain, speed=speed)) is converted
 
 
-@pytest.mark.parametrize(
-    ("turn", "noise", "converted"), [(1871.37, 9.0, True), (1871.0, 9.0, False), (1871.37, 0.0, False)]
-)
-def test_steps_far_below_noise_that_no_turn_has_a_number_of_are_a_converters(
-    turn: float, noise: float, converted: bool
+@pytest.mark.parametrize("noise", [9.0, 0.0])
+@pytest.mark.parametrize("turn", [1871.37, 1871.0])
+def test_multiples_of_a_step_are_told_from_printed_digits_and_from_values_of_any_size(
+    turn: float, noise: float
 ) -> None:
     """A tachogenerator in rows that jitter was said to be a slot of 0.02 rad over the time between two edges."""
     random, step = np.random.default_rng(6), tau / turn / 0.02
-    log = recorded(3)
-    level = 300.0 * np.sin(np.arange(len(log)) / 90.0) + noise * random.standard_normal(len(log))
-    log = without_count(replace(as_speed(log), speed=np.round(step * np.rint(level), 4)))
-    assert is_converted(log) is converted
-    assert not is_converted(replace(log, speed=log.speed + 0.3 * step * random.standard_normal(len(log))))  # no steps
-    assert not is_converted(replace(log, speed=0.01 * np.rint(log.speed / step)))  # printed digits
+    level = np.rint(300.0 * np.sin(np.arange(1000) / 90.0) + noise * random.standard_normal(1000))
+    assert lies_on_steps(np.round(step * level, 4))
+    assert not lies_on_steps(step * (level + 0.3 * random.standard_normal(1000)))
+    assert not lies_on_steps(0.01 * level) and not lies_on_steps(tau / 60.0 * level) and not lies_on_steps(0.0 * level)
 
 
 @pytest.mark.parametrize(("near", "counts"), [(1e-5, 0), (3.5e-4, 12562)])

@@ -193,14 +193,14 @@ def test_a_converters_steps_are_no_times_between_edges(converted: bool, monkeypa
 
 
 @pytest.mark.usefixtures("without_ticks")
-@pytest.mark.parametrize("whole", [True, False])
-def test_whole_counts_a_turn_are_no_times_between_edges(whole: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("stepped", [True, False])
+def test_multiples_of_a_step_are_no_times_between_edges(stepped: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     """Exact multiples of a count of 175 a turn were said to be a slot of 0.932 rad over the time between two edges."""
     shaper = shaper_of(logged(48))
-    monkeypatch.setattr(speed_timing, "are_whole_counts", lambda *_: whole)
+    monkeypatch.setattr(speed_timing, "lies_on_steps", lambda _: stepped)
     monkeypatch.setattr(speed_timing, "find_likeliest_slot", lambda *_: SlotGain(0.1, 100.0, 200))
     monkeypatch.setattr(speed_timing, "measure_gain_over_lag", lambda *_: 1.0)
-    assert (speed_timing._find_periods(shaper, ASSUMED) is None) is whole
+    assert (speed_timing._find_periods(shaper, ASSUMED) is None) is stepped
 
 
 @pytest.mark.usefixtures("unlike_lag")
