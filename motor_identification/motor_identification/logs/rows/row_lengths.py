@@ -13,6 +13,7 @@ from motor_identification.logs.signals import Floats, Signals
 from motor_identification.sensor.parabola_scatter import WINDOW, measure_scatter
 from motor_identification.sensor.row_clock import LONGEST, measure_period
 from motor_identification.sensor.value_lattice import find_lattice
+from motor_identification.sensor.value_lattice import measure_scatter as measure_scatter_of_levels
 
 LEAST_ROWS = 50
 MOST_ROWS = 20_000  # that the motion is looked at in
@@ -20,6 +21,7 @@ IRREGULAR = 0.01  # of a row: standard deviation of the rows' lengths that matte
 FASTEST = 0.5  # quantile of the speed, above which rows tell of their lengths
 TRUSTED = 0.9  # quantile of the scatter that counts: where the voltage jumps no parabola follows
 PARTS, FEWEST_A_PART, LONGER = 8, 5, 3.0  # of a log; rows of each; times as long as in another, no jitter but a change
+COARSER, EXACT = 1.5, 0.01  # times the step without, and of a step that counts are beside whole ones: to the digit
 BETTER = 0.85  # of the scatter that speeds leave as they are: less is left by those of their own rows
 
 
@@ -77,7 +79,8 @@ def divide_by_regular_rows(stamped: Signals, regular: Signals) -> tuple[Signals,
     """Divide speeds by regular rows where counts were divided by the steps of coarse stamps; and say so.
 
     Rows of 5 ms have 4, 5 or 6 ms between whole milliseconds, and 20 counts in each are three speeds: times those
-    steps they are on a lattice again, and follow the motion more closely.
+    steps they are on a lattice again, and follow the motion more closely. Or on one to the digit, where they are on
+    none otherwise, or on half of it: a few steps that are longer halve it.
 
     Args:
         stamped: rows as they were stamped.
@@ -94,7 +97,10 @@ def divide_by_regular_rows(stamped: Signals, regular: Signals) -> tuple[Signals,
         known[run.start] = False  # nobody knows its step
         told.append(_compare(np.asarray(regular.time[run] * 1e-9, np.float64), regular.motion[run], motion[run]))
     as_they_are, by_rows = np.sum(told, axis=0)
-    if not (as_they_are > 0.0 and by_rows < BETTER * as_they_are and find_lattice(motion[known]) > 0.0):
+    step, of_rows = find_lattice(motion[known]), find_lattice(regular.motion[known])
+    follows = as_they_are > 0.0 and by_rows < BETTER * as_they_are
+    exact = step > COARSER * of_rows and measure_scatter_of_levels(np.abs(motion[known]), step) < EXACT
+    if not (step > 0.0 and (follows or exact)):
         return regular, []
     said = "Speeds are counts divided by the steps of those stamps: they are divided by the regular rows (found)."
     return replace(regular, motion=motion), [said]

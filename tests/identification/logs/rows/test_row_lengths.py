@@ -114,6 +114,23 @@ def test_counts_by_the_steps_of_coarse_stamps_are_divided_by_regular_rows() -> N
     assert np.allclose(turned, counts[1:], atol=1e-3) and said[0].endswith("(found).")
 
 
+@pytest.mark.parametrize("by_stamps", [True, False])
+def test_a_few_longer_steps_are_those_of_counts_that_lie_on_a_lattice_by_them_alone(by_stamps: bool) -> None:
+    """Four of 143 rows of a firmware's speeds halved the step, and a slot of 0.041 rad was made of them."""
+    even = 26.03e-3 * np.arange(143)
+    stamps = np.floor(even * 1e3 + 0.3) * 1e-3
+    random = np.random.default_rng(750_000)
+    counts = np.floor(15.0 * (1.0 - np.exp(-np.arange(143) / 3.0)) + random.uniform(0.0, 4.0, 143))
+    steps = np.diff(stamps, prepend=-0.026) if by_stamps else np.full(143, 0.026)
+    speed = np.round(counts * 2.0 * np.pi / 1285.0 / steps, 6)
+    found, said = divide_by_regular_rows(signals(stamps, speed), signals(even, speed))
+    assert bool(said) is by_stamps
+    turned = found.motion[1:] * (26.03e-3 if by_stamps else 0.026) * 1285.0 / (2.0 * np.pi)
+    assert np.allclose(turned, counts[1:], atol=1e-3)
+    rough = signals(stamps, speed + 0.02 * random.standard_normal(143))
+    assert divide_by_regular_rows(rough, replace(rough, time=signals(even, speed).time))[1] == []
+
+
 def test_speeds_by_other_rows_than_their_stamps_are_left() -> None:
     stamped, regular, _ = stamped_counts(by_stamps=False)
     assert divide_by_regular_rows(stamped, regular) == (regular, [])
