@@ -11,10 +11,10 @@ from motor_driver.exchange import Exchange
 from motor_driver.frames.codes import Flag
 from motor_driver.frames.from_board import Features, Hello, OtherVersion, Pong, Protection, Telemetry
 from motor_driver.handshake import Handshake, reset_cause
+from motor_driver.output.switch import reason_off
 from motor_driver.protocol import Event, LinkCounters
 from motor_driver.readout import Readout
 from motor_driver.session import Session
-from motor_driver.switch import reason_off
 from motor_model.sample import Info, Sample
 from motor_model.sensing.motion_check import MotionCheck
 from motor_model.sensing.shed_edges import ShedEdges
@@ -27,6 +27,10 @@ LATE = (
 REPLAYED = (
     "the board on {} obeyed a command that this driver had not sent, or an old one again: see who else writes to that "
     "port, or what repeats bytes on the way"
+)
+OTHERS = (
+    "somebody else tells the board on {} how to drive, or switches it on: see who else writes to that port, or what "
+    "repeats bytes on the way"
 )
 DEAF = (
     "the board on {} says what it measures and does nothing that it is told, as if it heard nothing: see the wire or "
@@ -176,7 +180,7 @@ class Driver:
         elif session:
             self._check_lateness(session, now)
             if session.switch.unheard(now, self.config.confirmation * 1e9):
-                self._halt(DEAF.format(session.port))
+                self._halt((OTHERS if session.disturbed else DEAF).format(session.port))
         (stop, motor), self._stop, self._by_motor = (self._stop, self._by_motor), "", False
         wish = wish and not stop
         duty = self._readout.duty(voltage) if self._readout else 0
@@ -195,8 +199,10 @@ class Driver:
             self._hear_hello(session, event.frame, now)
         elif isinstance(event.frame, Features):
             session.handshake.hear_features(event.frame)
+            self._hear_told(session, event.frame)
         elif isinstance(event.frame, Protection):
             session.handshake.hear_protection(event.frame)
+            self._hear_told(session, event.frame)
         elif isinstance(event.frame, Telemetry):
             return self._hear_telemetry(session, event.frame, now)
         elif isinstance(event.frame, Pong) and session.exchange and session.latest and self._readout:
@@ -219,6 +225,12 @@ class Driver:
             self.board = hello
             self.runs_begun += 1
             session.begin(Exchange(self.config.baud, self._drift, self.config.round_trip), now)
+        else:
+            self._hear_told(session, hello)
+
+    def _hear_told(self, session: Session, frame: Hello | Features | Protection) -> None:
+        if session.hear_told(frame):
+            self._halt(OTHERS.format(session.port))
 
     def _reset(self, session: Session, cause: str) -> None:
         self.resets += 1
@@ -245,8 +257,11 @@ class Driver:
         session.latest, session.heard, session.silent = frame, now, False
         if session.hear_another(frame):
             self._halt(REPLAYED.format(session.port))
+        if session.hear_switched(frame):
+            self._halt(OTHERS.format(session.port))
         if session.switch.hear(frame):
-            self._halt(reason_off(frame), motor=bool(frame.flags & Flag.OVERCURRENT))
+            why = OTHERS.format(session.port) if session.disturbed else reason_off(frame)
+            self._halt(why, motor=bool(frame.flags & Flag.OVERCURRENT))
         return [self._reading(session.exchange, self._readout, frame, now, restarted)]
 
     def _reading(self, exchange: Exchange, readout: Readout, frame: Telemetry, now: int, restarted: bool) -> Reading:

@@ -3,11 +3,13 @@
 from dataclasses import dataclass, field
 
 from motor_driver.exchange import Exchange
-from motor_driver.frames.from_board import Telemetry
+from motor_driver.frames.from_board import Features, Hello, Protection, Telemetry
 from motor_driver.frames.from_host import Command, FromHost
 from motor_driver.handshake import Handshake, Phase
+from motor_driver.output.agreement import Agreement
+from motor_driver.output.commands import Commands
+from motor_driver.output.switch import Output, Switch
 from motor_driver.protocol import Decoder, Encoder
-from motor_driver.switch import Switch
 
 REPEAT = 10_000_000  # [ns] after which an unchanged command is sent again
 NUMBERS = 1 << 16  # of frames, which wrap
@@ -26,6 +28,8 @@ class Session:
     encoder: Encoder = field(default_factory=Encoder)
     switch: Switch = field(default_factory=Switch)
     exchange: Exchange | None = None  # while the board runs
+    agreement: Agreement | None = None  # likewise
+    commands: Commands = field(default_factory=Commands)
     latest: Telemetry | None = None  # since it runs
     heard: int = 0  # [ns] when `latest` was read
     silent: bool = False
@@ -41,30 +45,49 @@ class Session:
         """Whether the board samples as configured."""
         return self.handshake.phase is Phase.RUN
 
+    @property
+    def disturbed(self) -> bool:
+        """Whether somebody else has told the board something, and this driver has not made that good yet."""
+        return self.agreement is not None and self.agreement.disturbed
+
     def begin(self, exchange: Exchange, now: int) -> None:
         """The board runs from now on."""
         self.exchange, self.heard, self.silent = exchange, now, False
         self.switch, self.latest, self.sent = Switch(), None, None
         self.count, self.obeyed = 0, None
+        self.agreement = self.handshake.agreement()
 
     def end(self) -> None:
         """The board was reset."""
         self.handshake.begin_again()
-        self.exchange = None
+        self.exchange = self.agreement = None
 
     def due(self, now: int, wish: bool, duty: int) -> bytes:
         """What to send now, while the user wants the output on or not, and this duty."""
         frames: list[FromHost | None] = [self.handshake.asks(now)]
-        if self.exchange:
-            frames += [self.switch.asks(wish, self.latest, now), self.exchange.asks(now)]
+        if self.exchange and self.agreement:
+            frames.append(self.switch.asks(wish, self.agreement.named, now))
+            frames += self.agreement.asks(now, self.switch.output is Output.TURNING_ON)
+            frames.append(self.exchange.asks(now))
             if self.switch.listening:
                 frames.append(self._command(duty, now))
         due = [frame for frame in frames if frame is not None]
         self.count += len(due)
-        data = b"".join(map(self.encoder.send, due))
+        data = b""
+        for frame in due:
+            self.commands.send(frame, self.encoder.seq)
+            data += self.encoder.send(frame)
         if not self.greeted:
             self.greeted, data = True, b"\0" + data
         return data
+
+    def hear_told(self, frame: Hello | Features | Protection) -> bool:
+        """Take what a board that runs says that it was told; True if somebody else has told it otherwise."""
+        return self.agreement is not None and self.agreement.hear(frame)
+
+    def hear_switched(self, frame: Telemetry) -> bool:
+        """Tell whether a board that this driver wants on was switched on by somebody else: nobody knows how."""
+        return self.agreement is not None and self.agreement.hear_telemetry(frame) and self.switch.listening
 
     def hear_another(self, frame: Telemetry) -> bool:
         """Tell whether the board has obeyed a command that is not ours, or an old one again: a line keeps the order."""
@@ -73,6 +96,8 @@ class Session:
             self.strange = 0
             return False
         ours = (self.encoder.seq - 1 - frame.command) % NUMBERS < min(self.count, NUMBERS // 2)
+        if ours and self.commands.disagree(frame):
+            return True
         self.obeyed = frame.command if ours else before
         if before is None:
             return self._is_strange(ours)

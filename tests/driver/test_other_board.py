@@ -42,7 +42,8 @@ class Board:
                 if isinstance(event, Arrival):
                     self.answer(event.frame)
             flags = Flag.ENABLED if self.enabled else 0
-            self.say(replace(TELEMETRY, time=self.time, duty=128, flags=flags, boot=self.hello.boot))
+            latch = self.hello.latch
+            self.say(replace(TELEMETRY, time=self.time, duty=128, flags=flags, boot=self.hello.boot, latch=latch))
 
     def answer(self, frame: Frame) -> None:
         if isinstance(frame, Configure):

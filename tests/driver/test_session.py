@@ -22,6 +22,7 @@ def opened() -> Session:
 def running() -> Session:
     session = opened()
     session.handshake.hear(HELLO)
+    assert isinstance(session.handshake.asks(0), Configure)
     assert session.handshake.hear(replace(HELLO, command_timeout=120, latch=2)) and session.runs
     session.begin(Exchange(BAUD), 0)
     session.latest = TELEMETRY

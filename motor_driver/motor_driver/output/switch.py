@@ -3,7 +3,7 @@
 from enum import Enum, auto
 
 from motor_driver.frames.codes import Flag
-from motor_driver.frames.from_board import Telemetry
+from motor_driver.frames.from_board import Hello, Telemetry
 from motor_driver.frames.from_host import Enable
 
 ASK_EVERY = 10_000_000  # [ns]
@@ -46,6 +46,7 @@ class Switch:
         self._asked: int | None = None
         self._named: int | None = None  # latch in the latest enable, while turning on
         self._enables, self._since = 0, 0  # while turning on: how often that was asked for, and since when [ns]
+        self._told = False  # while turning on: it was said what an enable is to name, which takes a while of its own
 
     @property
     def listening(self) -> bool:
@@ -70,8 +71,8 @@ class Switch:
         turning_on = self.output is Output.TURNING_ON and self._named is not None
         return turning_on and frame.latch != self._named and bool(frame.flags & OWN_WAYS)
 
-    def asks(self, wish: bool, latest: Telemetry | None, now: int) -> Enable | None:
-        """What to send at `now`, given what the user wants and the board said last."""
+    def asks(self, wish: bool, named: Telemetry | Hello | None, now: int) -> Enable | None:
+        """What to send at `now`, given what the user wants; `named` has boot and latch of a board that may be on."""
         if wish and self.output is Output.OFF:
             self._go(Output.TURNING_ON)
         elif not wish and self.listening:
@@ -80,16 +81,23 @@ class Switch:
         if not waiting or (self._asked is not None and now - self._asked < ASK_EVERY):
             return None
         self._asked = now
-        if self.output is Output.TURNING_OFF or latest is None:
+        if self.output is Output.TURNING_OFF:
             return Enable(0)
-        self._named = latest.latch
+        if named is not None and not self._told:
+            self._told, self._enables = True, 0
         self._enables, self._since = self._enables + 1, self._since if self._enables else now
-        return Enable(1, latest.boot, latest.latch)
+        if named is None:
+            return None
+        self._named = named.latch
+        return Enable(1, named.boot, named.latch)
 
     def unheard(self, now: int, longest: float) -> bool:
-        """Whether at `now` the board has not switched on for more than `longest` [ns], however often it was asked."""
+        """Whether at `now` the board has not switched on for more than `longest` [ns], however often it was asked.
+
+        The same holds of one that is not to be switched on yet, however often it was to be.
+        """
         turning_on = self.output is Output.TURNING_ON
         return turning_on and self._enables >= ASKED and now - self._since > longest
 
     def _go(self, output: Output) -> None:
-        self.output, self._asked, self._named, self._enables = output, None, None, 0
+        self.output, self._asked, self._named, self._enables, self._told = output, None, None, 0, False

@@ -8,7 +8,7 @@ from board_frames import TELEMETRY, enabled
 
 from motor_driver.frames.codes import Flag
 from motor_driver.frames.from_host import Enable
-from motor_driver.switch import ASK_EVERY, ASKED, Output, Switch, reason_off
+from motor_driver.output.switch import ASK_EVERY, ASKED, Output, Switch, reason_off
 
 
 def turned_on() -> Switch:
@@ -51,8 +51,28 @@ def test_a_board_that_does_not_switch_on_however_often_it_is_asked_hears_nothing
     assert not switch.unheard(20_000 * ms, 200.0 * ms)
 
 
-def test_before_any_telemetry_only_off_can_be_asked_for() -> None:
-    assert Switch().asks(True, None, 0) == Enable(0)
+def test_before_it_is_sure_what_the_board_was_told_nothing_is_switched_on() -> None:
+    switch = Switch()
+    assert switch.asks(True, None, 0) is None and switch.output is Output.TURNING_ON
+    assert switch.asks(True, TELEMETRY, ASK_EVERY) == Enable(1, TELEMETRY.boot, TELEMETRY.latch)
+    assert switch.asks(False, None, 2 * ASK_EVERY) == Enable(0)
+
+
+@pytest.mark.parametrize("ready", [ASKED - 1, 5])
+def test_what_takes_too_long_before_an_enable_is_a_stop_too_and_an_enable_has_its_own_time(ready: int) -> None:
+    switch, ms = Switch(), 1_000_000
+    for k in range(ASKED):
+        assert switch.asks(True, None, k * 30 * ms) is None
+        assert switch.unheard(k * 30 * ms, 200.0 * ms) is (k == ASKED - 1)
+    switch = Switch()
+    for k in range(ready):
+        switch.asks(True, None, k * 30 * ms)
+    for k in range(ASKED):
+        assert switch.asks(True, TELEMETRY, (300 + k * 10) * ms) is not None
+    assert not switch.unheard(500 * ms, 200.0 * ms) and switch.unheard(501 * ms, 200.0 * ms)
+    switch.asks(True, None, 502 * ms)
+    switch.asks(True, TELEMETRY, 512 * ms)  # somebody goes on telling the board otherwise
+    assert switch.unheard(512 * ms, 200.0 * ms)
 
 
 def test_the_users_off_is_asked_for_at_once() -> None:

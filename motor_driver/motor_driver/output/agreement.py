@@ -1,0 +1,109 @@
+"""Whether a board that runs still does as this driver told it: before it is switched on, that has to be sure.
+
+Nothing on the line says whose a frame is: what another program, or a device that sends old bytes again, tells the board
+of decay, PWM, time-out or current limits acts, and the next voltage would be another one than was asked for. Each such
+frame switches off and adds 1 to the board's latch, as ours do. So an enable names the latch with which the board said
+that all is as this driver told it: a board that has been told anything since does not switch on. Where the latch has
+moved since for any reason, the board is told everything again, in one breath, before the next enable.
+"""
+
+from dataclasses import replace
+
+from motor_driver.config import Config
+from motor_driver.frames.from_board import Features, Hello, Protection, Telemetry
+from motor_driver.frames.from_host import Configure, FromHost, Protect, Setup
+
+LATCHES = 256
+TRIES = 4  # times that the board is told within what an answer may take
+
+
+class Agreement:
+    """Follows what the board says that it was told; times in ns are arguments."""
+
+    def __init__(self, config: Config, board: Hello, spare: int = 0) -> None:
+        """`board` is the hello by which it runs as told; `spare` frames that switch it off may still be under way."""
+        told: tuple[FromHost | None, ...] = (config.setup(board), config.protect(board), config.configure(board))
+        self._told = [frame for frame in told if frame is not None]
+        self._board, self._spare = board, spare
+        self.latch: int | None = board.latch  # that an enable may name; None: what the board was told is not sure
+        self.disturbed = False  # somebody else has told the board something, and it was not told again since
+        self._every = round(config.round_trip * 1e9 / TRIES)
+        self._latest: int | None = None  # [ns] when it was told again
+        self._from, self._sent = 0, 0  # latch before that, and frames since
+        self._heard: set[type] = set()  # answers that are as they should be
+
+    @property
+    def named(self) -> Hello | None:
+        """Whose boot and latch an enable may name; None: not yet."""
+        return replace(self._board, latch=self.latch) if self.latch is not None else None
+
+    def hear_telemetry(self, frame: Telemetry) -> bool:
+        """Take the latch that a sample names; True if the board was switched on by somebody else."""
+        if frame.latch == self.latch:
+            return False
+        if frame.enabled:
+            return True
+        if self.latch is None:
+            return False
+        if not self._explain(frame.latch):
+            self._doubt(frame.latch)
+        return False
+
+    def hear(self, frame: Hello | Features | Protection) -> bool:
+        """Take what the board says that it was told; True if somebody else has told it otherwise."""
+        if not self._agrees(frame):
+            self._doubt(frame.latch if isinstance(frame, Hello) else self._from)
+            self.disturbed = True
+            return True
+        self._heard.add(type(frame))
+        if isinstance(frame, Hello):
+            self._hear_hello(frame)
+        return False
+
+    def asks(self, now: int, wish: bool) -> list[FromHost]:
+        """What to tell the board again at `now`: before it is switched on, or where somebody has told it otherwise."""
+        sure = self.latch is not None or not (wish or self.disturbed)
+        if sure or (self._latest is not None and now - self._latest < self._every):
+            return []
+        self._latest = now
+        self._sent += len(self._told)
+        return self._told
+
+    def _hear_hello(self, hello: Hello) -> None:
+        if self.latch is not None:
+            self._explain(hello.latch)
+            return
+        moved = (hello.latch - self._from) % LATCHES
+        if not self._sent or moved < len(self._told) or not self._answered():
+            return  # of before all of it acted
+        if moved > self._sent:  # somebody else's among them, or the switch's own from before
+            self._doubt(hello.latch)
+            return
+        self.latch, self._spare, self.disturbed = hello.latch, self._sent - moved, False
+
+    def _answered(self) -> bool:
+        kinds = {Setup: Features, Protect: Protection, Configure: Hello}
+        return all(kinds[type(frame)] in self._heard for frame in self._told if type(frame) in kinds)
+
+    def _agrees(self, frame: Hello | Features | Protection) -> bool:
+        if isinstance(frame, Hello):
+            return replace(frame, latch=self._board.latch, reset_cause=self._board.reset_cause) == self._board
+        for told in self._told:
+            if isinstance(told, Setup) and isinstance(frame, Features):
+                return (frame.quadrature, frame.pwm) == (told.quadrature, told.pwm)
+            if isinstance(told, Protect) and isinstance(frame, Protection):
+                held = (frame.zero, frame.most, frame.rated, frame.budget)
+                return held == (told.zero, told.most, told.rated, told.budget)
+        return True  # of what this driver leaves alone
+
+    def _explain(self, latch: int) -> bool:
+        """Whether frames of our own that were under way explain that the latch has moved on, which it then has."""
+        moved = (latch - (self.latch or 0)) % LATCHES
+        if not moved <= self._spare:
+            return False
+        self.latch, self._spare = latch, self._spare - moved
+        return True
+
+    def _doubt(self, latch: int) -> None:
+        self.latch, self._latest = None, None
+        self._from, self._sent, self._heard = latch, 0, set()
