@@ -10,7 +10,8 @@ motor off by itself, whoever sends the voltage. Simulated and real motor share t
 supply is measured and off, and no edge comes: whoever switches it on again, on most benches by the switch that stops
 the motor, does not expect it to go on by itself.
 
-What a voltage that is never strong for long does to a motor that does not turn is in `heating.py`; what two channels
+What a voltage that is never strong for long does to a motor that does not turn is in `heating.py`, how long it has been
+driven is in `lasting.py`; what two channels
 show of one that turns the wrong way without becoming slower, in `against_voltage.py`; and of one whose other channel
 is lost, in `to_and_fro.py`.
 """
@@ -21,13 +22,14 @@ from motor_model.frozen_record import replace
 from motor_model.sample import Sample
 from motor_model.sensing.against_voltage import AgainstVoltage
 from motor_model.sensing.heating import Heating
+from motor_model.sensing.lasting import Lasting
 from motor_model.sensing.supply import find_least_supply
 from motor_model.sensing.to_and_fro import ToAndFro
 
 DRIVEN = 0.25  # of the motor's voltage: turns any motor that is meant for it
 STRONG = 0.5  # of the motor's voltage: twice what any motor needs to break away, so that no slow ramp comes that far
 STILL_STRONG = 0.8  # of that it may fall to and count on: a loop's voltage trembles with the disc's slots
-LASTING = 16.0  # stall times of driving one way without an edge: a slow ramp is strong before that
+LASTING = 16.0  # stall times of driving without an edge: a slow ramp is strong before that
 LONG = 500_000_000  # [ns] of driving one way without what should follow
 ALL = 0.93  # of a measured supply, which a driver smooths by as much as 5 %: more there is not, however little it is
 # Of the period before: a motor that is braked to a standstill has a last one of at least 1.3 of it, however hard it is
@@ -69,6 +71,7 @@ class MotionCheck:
     still: int = 0  # [ns] driven in this direction without an edge since
     along: int = 0  # [ns] driven in this direction while turning against it since
     strong_since: int = 0  # [ns] driven strongly in this direction since
+    lasting: Lasting = Lasting()
     heating: Heating = Heating()
     against: AgainstVoltage = AgainstVoltage()
     to_and_fro: ToAndFro = ToAndFro()  # while it is driven strongly one way
@@ -86,7 +89,8 @@ class MotionCheck:
         edge = before is not None and sample.edge_count != before.edge_count
         moved = edge or before is None
         waits = self._is_off(sample) and share != 0.0 and not moved
-        dt = max(now - before.sample_time, 0) * 1e-9 if before is not None else 0.0  # [s]
+        took = max(now - before.sample_time, 0) if before is not None else 0
+        dt = took * 1e-9  # [s]
         return replace(
             self,
             latest=sample,
@@ -95,6 +99,7 @@ class MotionCheck:
             still=now if fresh or moved else self.still,
             along=now if fresh or sample.speed * direction >= 0.0 else self.along,
             strong_since=now if anew else self.strong_since,
+            lasting=self.lasting.see(direction, took, edge, self.stall_time),
             heating=self.heating.see(share, dt, edge, self.stall_time),
             against=self.against.see(sample, before, share, STRONG if strong else 0.0, 0 if anew else strong),
             to_and_fro=self.to_and_fro.see(sample, anew or strong == 0),
@@ -125,7 +130,7 @@ class MotionCheck:
             return NO_SUPPLY.format(supply=sample.supply_voltage)
         if excess := self.heating.excess(STRONG, self.stall_time):
             return HEATED.format(voltage=excess[0] * self.max_voltage, time=excess[1])
-        if self.direction != 0 and sample.sample_time - self.still >= LASTING * most:
+        if self.direction != 0 and self.lasting.time >= LASTING * most:
             return self._no_edges(sample)
         if strong_since is None:
             return ""
