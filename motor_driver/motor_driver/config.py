@@ -12,6 +12,8 @@ from motor_model.sample import Info, Measurement
 
 SILENCE = 0.12  # [s] without telemetry, or for the board without commands: then it is 0 V within 150 ms
 ROUND_TRIP = 0.1  # [s] that the board may take to answer: half of it is how much later the motor does as told
+# [s] likewise, however old a command may be: by as much the user's own stop acts late, and pings are known for longer.
+MOST_ROUND_TRIP = 1.0
 LEAST_TIMEOUT = 0.05  # [s] of the board: no computer is quicker for certain
 # Of the firmware: 1.0 has no pull-ups on the encoder's lines, so that a lost cable makes stray edges, and it counts a
 # shaft that dithers over one flank as turning.
@@ -65,7 +67,7 @@ class Config:
     @property
     def round_trip(self) -> float:
         """[s] that the board may take to answer; who lets commands be older has a slow link, and knows it."""
-        return max(ROUND_TRIP, self.command_timeout)
+        return min(max(ROUND_TRIP, self.command_timeout), MOST_ROUND_TRIP)
 
     @property
     def confirmation(self) -> float:

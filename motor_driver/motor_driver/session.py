@@ -67,7 +67,8 @@ class Session:
         frames: list[FromHost | None] = [self.handshake.asks(now)]
         if self.exchange and self.agreement:
             frames.append(self.switch.asks(wish, self.agreement.named, now))
-            frames += self.agreement.asks(now, self.switch.output is Output.TURNING_ON)
+            waits = self.switch.output is Output.TURNING_ON
+            frames += self.agreement.asks(now, waits, self.exchange.round_trip or 0)
             frames.append(self.exchange.asks(now))
             if self.switch.listening:
                 frames.append(self._command(duty, now))

@@ -6,6 +6,7 @@ import pytest
 from board_frames import HELLO
 
 from motor_driver.config import SILENCE, Config
+from motor_driver.exchange import MEMORY, PING_EVERY
 from motor_driver.frames.codes import Decay
 from motor_driver.frames.from_host import Configure
 
@@ -31,6 +32,14 @@ def test_an_older_board_is_given_no_period_that_ends_with_a_short_step(rate: flo
 def test_the_board_waits_a_little_longer_than_the_driver_and_never_long(timeout: float, milliseconds: int) -> None:
     asked = Config(command_timeout=timeout, decay=Decay.COAST).configure(HELLO)
     assert asked == Configure(10_000, milliseconds, Decay.COAST)
+
+
+@pytest.mark.parametrize(("timeout", "longest"), [(0.02, 0.1), (0.1, 0.1), (0.5, 0.5), (1.0, 1.0), (10.0, 1.0)])
+def test_a_link_may_be_as_late_as_commands_are_old_but_no_later_than_pings_are_known(
+    timeout: float, longest: float
+) -> None:
+    """A stop of the user's acts as late: 10 s were allowed, and 1.3 s called "later than 10000 ms"."""
+    assert Config(command_timeout=timeout).round_trip == longest < MEMORY * PING_EVERY * 1e-9
 
 
 def test_silence_is_a_stop_before_150_ms_but_for_slow_samples() -> None:

@@ -29,7 +29,7 @@ class Agreement:
         self.disturbed = False  # somebody else has told the board something, and it was not told again since
         self._every = round(config.round_trip * 1e9 / TRIES)
         self._latest: int | None = None  # [ns] when it was told again
-        self._from, self._sent = 0, 0  # latch before that, and frames since
+        self._from, self._sent = 0, 0  # latch before that, and frames that may have acted since
         self._heard: set[type] = set()  # answers that are as they should be
 
     @property
@@ -44,6 +44,7 @@ class Agreement:
         if frame.enabled:
             return True
         if self.latch is None:
+            self._from = self._from if self._sent else frame.latch
             return False
         if not self._explain(frame.latch):
             self._doubt(frame.latch)
@@ -60,10 +61,13 @@ class Agreement:
             self._hear_hello(frame)
         return False
 
-    def asks(self, now: int, wish: bool) -> list[FromHost]:
-        """What to tell the board again at `now`: before it is switched on, or where somebody has told it otherwise."""
+    def asks(self, now: int, wish: bool, took: int = 0) -> list[FromHost]:
+        """What to tell the board again at `now`: before it is switched on, or where somebody has told it otherwise.
+
+        The latest answer `took` so long [ns]: what is under way is not sent again.
+        """
         sure = self.latch is not None or not (wish or self.disturbed)
-        if sure or (self._latest is not None and now - self._latest < self._every):
+        if sure or (self._latest is not None and now - self._latest < max(self._every, 2 * took)):
             return []
         self._latest = now
         self._sent += len(self._told)
@@ -74,12 +78,15 @@ class Agreement:
             self._explain(hello.latch)
             return
         moved = (hello.latch - self._from) % LATCHES
-        if not self._sent or moved < len(self._told) or not self._answered():
-            return  # of before all of it acted
-        if moved > self._sent:  # somebody else's among them, or the switch's own from before
-            self._doubt(hello.latch)
+        if moved == 0:  # of before any of it acted
             return
-        self.latch, self._spare, self.disturbed = hello.latch, self._sent - moved, False
+        ours = moved <= self._sent and moved % len(self._told) == 0
+        if ours and self._answered():
+            self.latch, self._spare, self.disturbed = hello.latch, self._sent - moved, False
+            return
+        # Somebody else's frames among ours, or the switch's own from before, or some of ours are lost: once more.
+        self._from, self._sent = hello.latch, max(self._sent - moved, 0)
+        self._latest, self._heard = None, set()
 
     def _answered(self) -> bool:
         kinds = {Setup: Features, Protect: Protection, Configure: Hello}

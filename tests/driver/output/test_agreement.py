@@ -55,6 +55,16 @@ def test_one_that_went_off_is_told_everything_again_before_it_is_switched_on() -
     assert agreed.asks(2 * EVERY, wish=True) == []
 
 
+def test_what_the_latch_moves_before_the_board_is_told_again_is_nobody_else_s() -> None:
+    """The switch asks a board off until it says so, and each of those frames adds 1."""
+    agreed = off(251)
+    for latch in (252, 255):
+        assert not agreed.hear_telemetry(replace(TELEMETRY, latch=latch))
+    agreed.asks(0, wish=True)
+    assert not agreed.hear_telemetry(replace(TELEMETRY, latch=0))  # of ours, or not: the answers tell
+    assert answered(agreed, 2).latch == 2
+
+
 def test_a_board_of_old_firmware_is_told_what_it_knows() -> None:
     agreed = Agreement(Config(), replace(HELLO, latch=2))
     agreed.hear_telemetry(replace(TELEMETRY, latch=3))
