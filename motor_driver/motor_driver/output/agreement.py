@@ -53,7 +53,8 @@ class Agreement:
     def hear(self, frame: Hello | Features | Protection) -> bool:
         """Take what the board says that it was told; True if somebody else has told it otherwise."""
         if not self._agrees(frame):
-            self._doubt(frame.latch if isinstance(frame, Hello) else self._from)
+            known = self._from if self.latch is None else self.latch
+            self._doubt(frame.latch if isinstance(frame, Hello) else known)
             self.disturbed = True
             return True
         self._heard.add(type(frame))
