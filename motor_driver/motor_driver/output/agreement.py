@@ -25,7 +25,7 @@ class Agreement:
         told: tuple[FromHost | None, ...] = (config.setup(board), config.protect(board), config.configure(board))
         self._told = [frame for frame in told if frame is not None]
         self._board, self._spare = board, spare
-        self.latch: int | None = board.latch  # that an enable may name; None: what the board was told is not sure
+        self.named: Hello | None = board  # whose boot and latch an enable may name; None: what it was told is not sure
         self.disturbed = False  # somebody else has told the board something, and it was not told again since
         self._every = round(config.round_trip * 1e9 / TRIES)
         self._latest: int | None = None  # [ns] when it was told again
@@ -33,17 +33,17 @@ class Agreement:
         self._heard: set[type] = set()  # answers that are as they should be
 
     @property
-    def named(self) -> Hello | None:
-        """Whose boot and latch an enable may name; None: not yet."""
-        return replace(self._board, latch=self.latch) if self.latch is not None else None
+    def latch(self) -> int | None:
+        """The latch that an enable may name; None: not yet."""
+        return self.named.latch if self.named is not None else None
 
     def hear_telemetry(self, frame: Telemetry) -> bool:
         """Take the latch that a sample names; True if the board was switched on by somebody else."""
-        if frame.latch == self.latch:
+        if self.named is not None and frame.latch == self.named.latch:
             return False
         if frame.enabled:
             return True
-        if self.latch is None:
+        if self.named is None:
             self._from = self._from if self._sent else frame.latch
             return False
         if not self._explain(frame.latch):
@@ -67,7 +67,7 @@ class Agreement:
 
         The latest answer `took` so long [ns]: what is under way is not sent again.
         """
-        sure = self.latch is not None or not (wish or self.disturbed)
+        sure = self.named is not None or not (wish or self.disturbed)
         if sure or (self._latest is not None and now - self._latest < max(self._every, 2 * took)):
             return []
         self._latest = now
@@ -75,7 +75,7 @@ class Agreement:
         return self._told
 
     def _hear_hello(self, hello: Hello) -> None:
-        if self.latch is not None:
+        if self.named is not None:
             self._explain(hello.latch)
             return
         moved = (hello.latch - self._from) % LATCHES
@@ -83,7 +83,7 @@ class Agreement:
             return
         ours = moved <= self._sent and moved % len(self._told) == 0
         if ours and self._answered():
-            self.latch, self._spare, self.disturbed = hello.latch, self._sent - moved, False
+            self.named, self._spare, self.disturbed = hello, self._sent - moved, False
             return
         # Somebody else's frames among ours, or the switch's own from before, or some of ours are lost: once more.
         self._from, self._sent = hello.latch, max(self._sent - moved, 0)
@@ -106,12 +106,11 @@ class Agreement:
 
     def _explain(self, latch: int) -> bool:
         """Whether frames of our own that were under way explain that the latch has moved on, which it then has."""
-        moved = (latch - (self.latch or 0)) % LATCHES
-        if not moved <= self._spare:
+        if self.named is None or (moved := (latch - self.named.latch) % LATCHES) > self._spare:
             return False
-        self.latch, self._spare = latch, self._spare - moved
+        self.named, self._spare = replace(self.named, latch=latch), self._spare - moved
         return True
 
     def _doubt(self, latch: int) -> None:
-        self.latch, self._latest = None, None
+        self.named, self._latest = None, None
         self._from, self._sent, self._heard = latch, 0, set()

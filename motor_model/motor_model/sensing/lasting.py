@@ -30,6 +30,8 @@ class Lasting:
         """
         if edge or self.way == 0:
             return Lasting(direction)
+        if direction == 0 and self.time == 0:
+            return Lasting()
         if direction == 0:
             left = max(self.before - max(dt - self.push, 0), 0)
             return Lasting(self.way, max(self.push - dt, 0), left)
