@@ -144,7 +144,23 @@ def _choose_poles(likelihood: "Likelihood", simplest: str, are_open: bool) -> tu
     if tops[kind] == len(CLIMB) - 1:  # it goes on, and is no filter
         return None, False
     number = _find_peak(partial(likelihood.of_kind, kind), tops[kind])
+    number = _swap_poles(likelihood, number) if kind == MEMORY else number
     return (_make(kind, number) if number >= LEAST_SHARE or kind == BILINEAR else None), False
+
+
+def _swap_poles(likelihood: "Likelihood", share: float) -> float:
+    """Choose between a filter's share and the one that the motor behind it keeps, uphill from there.
+
+    Which of two lags in series is the filter's and which the motor's only noise and the blur of a row tell: the climb
+    from none ends at the first, and the other has to be as much likelier as any filter.
+    """
+    keeps = likelihood.keep_of_motor(SpeedFilter(MEMORY, share))
+    value = partial(likelihood.of_kind, MEMORY)
+    top = _climb(value, min(range(1, len(CLIMB) - 1), key=lambda k: abs(CLIMB[k] - keeps)))
+    if top in (0, len(CLIMB) - 1):
+        return share
+    other = _find_peak(value, top)
+    return other if value(other) > value(share) + LEAST_GAIN else share
 
 
 def _find_as_late(kind: str, delay: float) -> int:
@@ -179,6 +195,11 @@ class Likelihood:
     def of_kind(self, kind: str, number: float) -> float:
         """Compute the same, by a kind of filter and its number."""
         return self.of(_make(kind, number))
+
+    def keep_of_motor(self, passed: SpeedFilter | None) -> float:
+        """Compute how much of its speed a motor keeps in a row, as it is fitted behind a filter."""
+        estimate = self.shaper.fit(replace(self.timing, filter=passed)).estimate
+        return exp(-estimate.problem.sample_period / estimate.parameters.time_constant)
 
     def is_driven(self, passed: SpeedFilter | None) -> bool:
         """Decide whether what moves the motor behind a filter is its voltage, and no random torque beyond that.

@@ -9,6 +9,7 @@ from typing import cast
 
 import numpy as np
 import pytest
+from plant import record
 from recorded import as_speed, without_count
 from scipy.signal import butter, lfilter
 from swinging import RUBBING, held_late, noisy, recorded
@@ -314,11 +315,42 @@ def test_a_filter_that_goes_on_where_the_search_ends_is_none(best: float, found:
             number = 0.0 if passed is None or passed.kind != MEMORY else passed.number
             return -1e4 * (number - best) ** 2
 
+        def keep_of_motor(self, passed: SpeedFilter | None) -> float:
+            return 0.5
+
     likelihood = Peak(silent, ASSUMED)
     likelihood.count = 1
     passed, sure = _choose_poles(likelihood, MEMORY, are_open=True)
     assert (passed is not None) is found and not sure
     assert passed is None or passed.number == pytest.approx(best, abs=0.01)
+
+
+@pytest.mark.parametrize(("gain", "keeps", "share"), [(22.0, 0.8, 0.789), (18.0, 0.8, 0.42), (22.0, 0.3, 0.42)])
+def test_the_filter_is_the_one_of_two_lags_that_is_far_likelier(gain: float, keeps: float, share: float) -> None:
+    """Of speeds that kept 0.79, of a motor that keeps 0.42 in a row, the other way about was found: ka 3.4 times."""
+
+    class TwoTops(Likelihood):
+        def _measure(self, passed: SpeedFilter | None, beside: Sequence[str] = ()) -> float:
+            number = 0.0 if passed is None or passed.kind != MEMORY else passed.number
+            tops = ((0.42, 100.0, 0.2), (0.789, 100.0 + gain, 0.1))
+            return max(height - 1e3 * ((number - top) / width) ** 2 * 0.04 for top, height, width in tops)
+
+        def keep_of_motor(self, passed: SpeedFilter | None) -> float:
+            return keeps
+
+    likelihood = TwoTops(cast(Shaper, SimpleNamespace(recordings=[])), ASSUMED)
+    likelihood.count = 1
+    assert smoothing._swap_poles(likelihood, 0.42) == pytest.approx(share, abs=0.02)
+
+
+def test_a_quick_motor_behind_a_slow_filter_is_no_slow_motor_behind_a_quick_one() -> None:
+    levels, motor = np.random.default_rng(760_100).uniform(-9.0, 9.0, 50), {"kv": 0.168, "ka": 0.0077, "ks": 0.3}
+    drive = np.arange(50) * 0.16, levels
+    plain, _ = record(motor, *drive, seed=1, edges=2000, sample_rate=25.0, single_channel=False)
+    log = without_count(as_speed(plain))
+    noise = 0.3 * np.random.default_rng(760_101).standard_normal(len(log))
+    found = filter_of(smoothed(replace(log, speed=log.speed + noise), 0.789))
+    assert found is not None and found.kind == MEMORY and found.number == pytest.approx(0.789, abs=0.03)
 
 
 @pytest.mark.parametrize(("strength", "found"), [(0.9, True), (1.1, False)])
