@@ -19,6 +19,8 @@ Floats = NDArray[np.float64]
 
 FEWEST_ROWS = 10  # in which each pin is on
 MOST_LATE = 3  # rows by which a motion follows its pins
+FEW, MOST_PAIRS = 6, 20  # columns of which any two may be pins, else those of like names; pairs that are looked at
+MOST_ROWS = 50_000  # in which pins and motion are compared, from the first on
 SPANS = (1, 4, 16)  # rows whose means are looked at
 SURE = 5.0  # standard errors of what a pin does to the motion
 EXPLAINED = 0.2  # of what a motion's own speed before leaves open, that its pins explain
@@ -26,6 +28,7 @@ ALIKE = 0.2  # of what one pin does, that the other one does at least: the same 
 BOTH_WAYS = 0.05  # of the largest speed, that a motor has the other way
 _ENABLES = words_of("ena enb en")  # of an L298N: the pin whose duty its inputs turn
 JOINED = "Voltage: {0} less {1}, as the motion goes with each, as with the pins of a bridge (otherwise: --voltage)."
+NAMED = "Voltage: {0} less {1}, as pins of a bridge that are never on together (otherwise: --voltage)."
 TURNED = (
     "Direction: {0} goes forward where {1} is on and backward where {2} is, as the motion turns with them (otherwise: "
     "--direction -)."
@@ -38,7 +41,8 @@ def join_half_bridge(table: Table, said: Said) -> Table:
 
     A bridge gives a motor the difference of what its halves get. So two columns are its halves where one of them is 0,
     or full, in every row, and the motion is pushed one way by one and the other way by the other: by what was, the
-    speed of the next rows rises with one pin and falls with the other. Beside a duty without a sign such pins, of two
+    speed of the next rows rises with one pin and falls with the other. Of pins of a bridge by name it is enough that
+    they are never on together. Beside a duty without a sign such pins, of two
     levels, are its direction.
 
     Args:
@@ -55,13 +59,20 @@ def join_half_bridge(table: Table, said: Said) -> Table:
         return table  # several motors, or another drive
     able = [one for one in headings if one.quantity in (None, Quantity.VOLTAGE, Quantity.DUTY)]
     able = [one for one in able if not DIRECTIONS & set(one.words) and _may_be_pin(table, one.name)]
-    for one, other in combinations(able, 2):
+    pairs = [pair for pair in combinations(able, 2) if len(able) <= FEW or _are_alike(*pair)]
+    for one, other in pairs[:MOST_PAIRS]:
         beside = [heading for heading in headings if heading not in (one, other)]
         if not _are_of_two_sides(one, other) and _are_halves(table.numbers(one.name), table.numbers(other.name)):
             joined = _join(table, one.name, other.name, beside, said)
             if joined is not None:
                 return joined
     return table
+
+
+def _are_alike(one: Heading, other: Heading) -> bool:
+    """Whether names are the same but for one character: `IN1` and `IN2`."""
+    apart = sum(a != b for a, b in zip(one.name, other.name, strict=False))
+    return len(one.name) == len(other.name) and apart == 1
 
 
 def _join(table: Table, one: str, other: str, beside: Sequence[Heading], said: Said) -> Table | None:
@@ -73,8 +84,11 @@ def _join(table: Table, one: str, other: str, beside: Sequence[Heading], said: S
     if drive:
         size = table.numbers(drive) / max(float(np.max(first)), float(np.max(second)))
         first, second = size * first, size * second
-    unsigned = not drive and _are_pins(one, other)
-    sign = next(filter(None, (_sign(one, first, second, unsigned) for one in _speeds(table, beside, drive, said))), 0)
+    pins = not drive and _are_pins(one, other)
+    sign = next(filter(None, (_sign(one, first, second, pins) for one in _speeds(table, beside, drive, said))), 0)
+    told = bool(sign)
+    if not sign and pins and not np.any(first * second):
+        sign = 1  # which way is forward is told later, by the motion
     if not sign:
         return None
     if sign < 0:
@@ -82,7 +96,7 @@ def _join(table: Table, one: str, other: str, beside: Sequence[Heading], said: S
     cells = {name: cell for name, cell in table.cells.items() if name not in (one, other)}
     unit = "V" if read_heading(one).unit == "V" else "duty"
     name = drive or f"{one} - {other} ({unit})"
-    note = TURNED.format(drive, one, other) if drive else JOINED.format(one, other)
+    note = TURNED.format(drive, one, other) if drive else (JOINED if told else NAMED).format(one, other)
     return replace(table, cells={**cells, name: first - second}, notes=(*table.notes, note))
 
 
@@ -133,7 +147,7 @@ def _are_pins(one: str, other: str) -> bool:
 def _speeds(table: Table, beside: Sequence[Heading], drive: str, said: Said) -> list[Floats]:
     """Speeds, each of shape (K,), in any unit, of what may move: as it is, or by its steps."""
     moving = [one for one in beside if one.name == said.motion] or [one for one in beside if one.quantity in MOVES]
-    moving = moving or [one for one in beside if one.quantity is None and one.name != drive]
+    moving = moving or [one for one in beside if one.quantity is None and one.name != drive][:FEW]
     found = [table.numbers(one.name) for one in moving if one.quantity is not Quantity.POSITION]
     steps = [table.numbers(one.name) for one in moving if one.quantity is not Quantity.SPEED]
     return [*found, *(np.diff(values, prepend=values[:1]) for values in steps)]
@@ -150,11 +164,14 @@ def _sign(speed: Floats, first: Floats, second: Floats, unsigned: bool) -> int:
         second: what the other one gets.
         unsigned: whether a speed without a sign, which rises with either, tells it too.
     """
+    begin = int(np.argmax(first != second))
+    rows = slice(begin, begin + MOST_ROWS)
+    speed, first, second = speed[rows], first[rows], second[rows]
     forth, back = float(np.max(speed)), -float(np.min(speed))
     both = min(forth, back) > BOTH_WAYS * max(forth, back)
     if not both and not (unsigned and back <= 0.0):
         return 0
-    signs = {_sign_of_rows(*(_means(column, rows) for column in (speed, first, second))) for rows in SPANS} - {0}
+    signs = {_sign_of_rows(*(_means(column, span) for column in (speed, first, second))) for span in SPANS} - {0}
     if len(signs) != 1:
         return 0
     (sign,) = signs

@@ -140,3 +140,24 @@ def test_columns_with_gaps_are_left_for_what_fills_them() -> None:
         cells = {"t": PERIOD * np.arange(ROWS), "IN1": forth(drive), "IN2": forth(-drive), name: gaps}
         table = Table(Path("log.csv"), np.arange(2, ROWS + 2), {**cells, "rpm": run_motor(drive, 4_330_105)})
         assert (join_half_bridge(table, Said()) is table) == (name == "Voltage")
+
+
+def test_among_many_columns_pins_have_like_names() -> None:
+    drive = excite(4_330_106)
+    flags = {f"flag{chr(97 + k) * (k + 1)}": 1.0 * (np.arange(ROWS) % (k + 3) == 0) for k in range(9)}
+    for one, other, joined in (("M1A", "M1B", True), ("what", "x", False)):
+        pins = {one: forth(drive), other: forth(-drive)}
+        found = join_half_bridge(make_table(**flags, **pins, rpm=run_motor(drive, 4_330_106)), Said())
+        assert (f"{one} - {other} (duty)" in found.names) == joined
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "joined"), [("IN1", "IN2", True), ("ain_1", "ain_2", True), ("A1", "A2", False)]
+)
+def test_pins_by_name_are_enough_where_the_motion_tells_nothing(one: str, other: str, joined: bool) -> None:
+    drive = excite(4_330_107)
+    for together in (False, True):
+        first = forth(drive) + together * (np.arange(ROWS) < 5)
+        second = forth(-drive) + 2.0 * together * (np.arange(ROWS) < 5)
+        table = make_table(**{one: first, other: second, "rpm": np.zeros(ROWS)})
+        assert (len(join_half_bridge(table, Said()).names) == 3) == (joined and not together)
