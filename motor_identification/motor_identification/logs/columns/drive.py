@@ -133,7 +133,7 @@ def _pulse_drive(heading: Heading, values: Floats, largest: float) -> Drive | No
             return Drive(None, f"goes from {least:g} to {largest:g}, no pulse in µs but {digital}", sure=False)
         whose = "a servo's" if "servo" in heading.words else "an ESC's"
         return Drive(None, f"is {whose} pulse in µs and no duty, as it is 1000 or 1500 at 0 V", sure=False)
-    if heading.unit == "us" and not {"esc", "servo"} & set(heading.words):
+    if heading.unit == "us" and not {"esc", "servo"} & set(heading.words) and largest > 1.0:  # else read as a share
         return Drive(None, "is how long a pulse is in µs, and no number says how far they are apart", sure=False)
     return None
 

@@ -67,15 +67,16 @@ def test_what_is_no_pulse_or_beyond_the_last_is_none_and_full() -> None:
     assert np.all(found[:50] == 0.0) and tuple(found[60:62]) == (1.0, 0.0)
 
 
+@pytest.mark.parametrize("name", ["ESC signal (µs)", "throttle_us"])
 @pytest.mark.parametrize("sagging", [True, False])
-def test_a_test_stands_log_is_read_with_its_battery(tmp_path: Path, sagging: bool) -> None:
+def test_a_test_stands_log_is_read_with_its_battery(tmp_path: Path, sagging: bool, name: str) -> None:
     """What it calls a voltage is at its highest where the motor stands; one that drives is then at its lowest."""
     share = np.linspace(0.0, 1.0, 11)
     rpm = 9000.0 * np.sqrt(share)
     volts = 12.0 - 3.0 * share if sagging else 12.0 * share
     path = tmp_path / "stand.csv"
     rows = [f"{k},{1000 + 100 * k},{volts[k]:.3f},{rpm[k]:.1f}" for k in range(11)]
-    path.write_text("\n".join(["Time (s),ESC signal (µs),Voltage (V),Motor Speed (RPM)", *rows]))
+    path.write_text("\n".join([f"Time (s),{name},Voltage (V),Motor Speed (RPM)", *rows]))
     imported = import_log(path, Said())
     (motor,) = imported.motors
     applied = sorted({round(sample.voltage, 3) for sample in motor.log.runs[0].samples})
