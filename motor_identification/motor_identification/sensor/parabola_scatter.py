@@ -6,6 +6,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from motor_identification.recording import Floats
 
 WINDOW = 7  # rows that a parabola is laid through
+PARABOLA = 3  # terms of one
 # Steps a row, at most, at which sums of counts tell: a row's uneven length is then a small part of one. And so many
 # windows at least, of which the jerkiest are left out.
 SLOW, LEAST_WINDOWS, KEPT = 3.0, 20, 0.8
@@ -19,17 +20,23 @@ CALM, END = 2.0, 3  # and rows at either end of a window
 FEW_WINDOWS, CALMER, BEYOND_COUNTS = 7, 0.5, 0.8
 
 
-def measure_scatter(time: Floats, motion: Floats) -> Floats:
-    """Measure what parabolas over time [s] through windows of rows leave of a motion (K,), squared; shape (K − 6,)."""
+def measure_scatter(time: Floats, motion: Floats, terms: int = PARABOLA) -> Floats:
+    """Measure what parabolas over time [s] through windows of rows leave of a motion (K,), squared; shape (K − 6,).
+
+    terms: of the polynomial, where it is another one than a parabola.
+    """
     times, values = (sliding_window_view(column, WINDOW) for column in (time, motion))
-    return np.asarray(np.sum(subtract_parabolas(times, values) ** 2, axis=1))
+    return np.asarray(np.sum(subtract_parabolas(times, values, terms) ** 2, axis=1))
 
 
-def subtract_parabolas(times: Floats, values: Floats) -> Floats:
-    """Subtract from every window of values what a parabola over its times [s] takes of them; all of shape (W, 7)."""
+def subtract_parabolas(times: Floats, values: Floats, terms: int = PARABOLA) -> Floats:
+    """Subtract from every window of values what a parabola over its times [s] takes of them; all of shape (W, 7).
+
+    terms: as for `measure_scatter`.
+    """
     span = np.ptp(times, axis=1)
     scaled = (times - times.mean(axis=1, keepdims=True)) / np.where(span > 0.0, span, 1.0)[:, None]
-    basis = np.linalg.qr(scaled[:, :, None] ** np.arange(3))[0]
+    basis = np.linalg.qr(scaled[:, :, None] ** np.arange(terms))[0]
     return np.asarray(values - np.einsum("wik,wjk,wj->wi", basis, basis, values))
 
 
