@@ -241,6 +241,23 @@ def test_a_friction_that_explains_most_of_the_time_is_relevant_whatever_is_left_
 
 
 @pytest.mark.parametrize(
+    ("gap", "share", "relevant"),
+    [
+        (1.02 * thresholds.NEAR_FLOOR_SEEN, 1.02 * thresholds.RELEVANT_SHARE_NEAR_FLOOR, True),
+        (1.02 * thresholds.NEAR_FLOOR_SEEN, 0.98 * thresholds.RELEVANT_SHARE_NEAR_FLOOR, False),
+        (0.98 * thresholds.NEAR_FLOOR_SEEN, 1.02 * thresholds.RELEVANT_SHARE_NEAR_FLOOR, False),  # the sensor hides it
+    ],
+)
+def test_what_takes_most_from_row_to_row_needs_not_last_where_the_sensor_leaves_little(
+    gap: float, share: float, relevant: bool
+) -> None:
+    """A friction beside a dead time in rows of half a time constant, which joined intervals did not show."""
+    left = np.sqrt(gap**2 - share * (gap**2 - FLOOR**2))
+    before, after = stub_model(gap, 0.7 * FLOOR), stub_model(left, 0.8 * FLOOR, likelihood=30.0)
+    assert CandidateTest("quadratic_drag", before, after).relevant is relevant
+
+
+@pytest.mark.parametrize(
     ("effect", "falls", "relevant"),
     [
         ("coulomb_friction", 0.999, True),
