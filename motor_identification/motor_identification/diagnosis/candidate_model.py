@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import exp, sqrt, tau
+from math import exp, sqrt
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from motor_identification.discrepancy.rests import are_parts_held_out, list_held
 from motor_identification.discrepancy.structure import Structure, find_structure
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.whitened_fit import WhitenedFit, fit_whitened
-from motor_identification.measurement.intervals import Intervals
+from motor_identification.measurement.intervals import Intervals, count_turns
 from motor_identification.noise.error_data import ErrorData
 from motor_identification.noise.error_learning import estimate_disturbance
 from motor_identification.noise.error_model import Disturbance, ErrorModel, Lag
@@ -76,8 +76,7 @@ class Model:
     @cached_property
     def turns(self) -> float:
         """Turns of the encoder's shaft between the ends of its motion, in the recording that has most of them."""
-        rows = zip(self.estimate.problem.intervals, self.estimate.angles, strict=True)
-        return max(data.gear * float(np.ptp(angle)) for data, angle in rows) / tau
+        return count_turns(self.estimate.problem.intervals, self.estimate.angles)
 
     @cached_property
     def whitened(self) -> WhitenedFit:

@@ -5,11 +5,14 @@ from math import log1p
 
 import numpy as np
 
+from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import likelihood_threshold
-from motor_identification.diagnosis.effect_test import list_candidates
+from motor_identification.diagnosis.effect_test import is_supported, list_candidates, try_effects
+from motor_identification.diagnosis.evidence.line_evidence import drop_chance_harmonics
 from motor_identification.diagnosis.fits.disturbed_fit import list_error_data
 from motor_identification.diagnosis.fits.effect_fit import add_noticeable_effect
+from motor_identification.diagnosis.selection.selection import Selection
 from motor_identification.noise.error_data import make_whitening
 from motor_identification.noise.likelihood import log_likelihood
 from motor_identification.noise.run_gain import move_to_likeliest
@@ -40,6 +43,22 @@ def find_undetectable(model: Model) -> tuple[str, ...]:
         if effect not in judged or _expect_evidence(model, left) < likelihood_threshold():
             hidden.append(effect)
     return tuple(hidden)
+
+
+def list_unturned_discs(selection: Selection) -> tuple[str, ...]:
+    """List the effects on a disc that motion speaks for beside what was selected, though it hardly came round once.
+
+    Of so small a part of a turn they bend the motion and scale it, which a torque and kv do, too: neither is one found,
+    nor is it true that it could not show. What is at a place is one of many, as what is at an instant.
+    """
+    model, quiet = selection.model, selection.model.quiet
+    if quiet or not model.held.counted.any() or model.turns >= LEAST_TURNS:
+        return ()
+    judged = list_candidates(model.effects, model.held, model.beside_torque)
+    discs = [name for name in judged if EFFECT_BY_NAME[name].on_disc]
+    tests = try_effects(model, selection.hold_out, discs, selection.workers, lambda test: None)
+    told = [one for one in drop_chance_harmonics(tests) if one.relevant and is_supported(one)]
+    return tuple(one.effect for one in told if one.is_likely(thresholds.INSTANT_LIKELIHOOD))
 
 
 def remove_imitation(columns: Floats, trace: Floats, weight: Floats) -> Floats:

@@ -7,7 +7,7 @@ import numpy as np
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
-from motor_identification.diagnosis.detectability import find_undetectable
+from motor_identification.diagnosis.detectability import find_undetectable, list_unturned_discs
 from motor_identification.diagnosis.effect_test import is_over_too_soon, list_candidates, sort_by_table
 from motor_identification.diagnosis.evidence.command_evidence import find_falling, find_ignored, goes_with_sweep
 from motor_identification.diagnosis.evidence.line_evidence import list_unseen_disc
@@ -15,7 +15,7 @@ from motor_identification.diagnosis.evidence.missed_edges import count_missed_ed
 from motor_identification.diagnosis.evidence.standstill_evidence import list_hills
 from motor_identification.diagnosis.result import Alternative, Diagnosis, Finding, Nearest, Verdict, list_vague
 from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
-from motor_identification.discrepancy.free_curves import BY_TIME
+from motor_identification.discrepancy.free_curves import BY_SPEED, BY_TIME
 from motor_identification.discrepancy.region_text import describe_error
 from motor_identification.discrepancy.structure import LEAST_SHARE, OVER_THE_DISC
 from motor_identification.estimation.request import SearchReport
@@ -50,6 +50,7 @@ def conclude(
     """
     last = selection.model
     undetermined = undetermined or list_unjudged_effects(selection)
+    undetermined = sort_by_table({*undetermined, *list_unturned_discs(selection)})
     base = base if selection.steps else last  # the same effects: one gap, not one of either fit
     model = summarise_fit(last.whitened, search, elapsed)
     gaps = _list_gaps(selection)
@@ -93,17 +94,22 @@ def conclude(
 
 
 def list_unjudged_effects(selection: Selection) -> tuple[str, ...]:
-    """List the effects that what is left goes with, by time or angle, and that could not be judged.
+    """List the effects that what is left goes with, by time, angle or speed, and that could not be judged.
 
     Nothing says then that it is outside the table. Under a sweep whatever depends on the frequency goes with the time,
     and times between edges do not count the angle. Measured: a warming-up by 0.24 beside a dead time, of which the time
-    predicts 76 %, and an eccentric disc of which the angle does 100. What cannot have come yet is none of them.
+    predicts 76 %, and an eccentric disc of which the angle does 100. Under voltages of one size the speed does 100 % of
+    what a breakaway leaves beside a friction at every reversal. What cannot have come yet is none of them.
     """
     last = selection.model
     certain = [one for one in selection.structure if one.certain]
     if not certain or certain[0].cause:
         return ()
-    families: dict[str, Callable[[str], bool]] = {BY_TIME: comes_slowly, OVER_THE_DISC: _is_periodic}
+    families: dict[str, Callable[[str], bool]] = {
+        BY_TIME: comes_slowly,
+        OVER_THE_DISC: _is_periodic,
+        BY_SPEED: lambda name: EFFECT_BY_NAME[name].implies in last.effects,
+    }
     belongs = families.get(certain[0].variable)
     if belongs is None:
         return ()

@@ -122,9 +122,9 @@ def _past(h: MotionHistory, most: Reach) -> Floats:
 
 
 PAST = "past"
-BY_TIME = "time"
+BY_SPEED, BY_TIME = "speed", "time"
 FAMILIES: dict[str, Callable[[MotionHistory, Reach], Floats]] = {
-    "speed": _speed,
+    BY_SPEED: _speed,
     "voltage": _voltage,
     "drive": _drive,
     "speed_voltage": _speed_by_voltage,

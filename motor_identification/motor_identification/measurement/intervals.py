@@ -4,6 +4,7 @@ Comparing angle *increments* keeps an early error from growing through the whole
 itself is compared. `build_intervals.py` makes them of every kind of recording, and `edit_intervals.py` others of them.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import sqrt, tau
@@ -154,6 +155,15 @@ class Intervals:
         follows = np.zeros(len(self.first), dtype=bool)
         follows[1:] = (self.first[1:] == self.last[:-1]) & (self.slack[1:] == 0.0) & (self.slack[:-1] == 0.0)
         return np.asarray(~follows)
+
+
+def count_turns(intervals: Sequence[Intervals], angles: Sequence[Floats]) -> float:
+    """Count the turns of the encoder's shaft between the ends of its motion, in the recording that has most of them.
+
+    angles: [rad] of the output, at the times of each recording's intervals.
+    """
+    rows = zip(intervals, angles, strict=True)
+    return max(data.gear * float(np.ptp(angle)) for data, angle in rows) / tau
 
 
 def index_times(start: Floats, end: Floats) -> tuple[Floats, Integers, Integers]:

@@ -11,9 +11,10 @@ from motor_identification.diagnosis.evidence.command_evidence import (
     goes_with_sweep,
 )
 from motor_identification.diagnosis.result import Diagnosis, Finding, Verdict, list_vague
-from motor_identification.diagnosis.thresholds import EXPLAINED_GAP, SURE_SIZE
+from motor_identification.diagnosis.thresholds import EXPLAINED_GAP, LEAST_TURNS, SURE_SIZE
 from motor_identification.discrepancy.missing_torque import describe_torque, estimate_missing_torque
 from motor_identification.discrepancy.region_text import describe_error
+from motor_identification.measurement.intervals import count_turns
 from motor_identification.reporting.caveats_text import (
     describe_cut,
     describe_disturbance,
@@ -47,6 +48,10 @@ DESCRIBE_SENSOR = (
 UNPREDICTED = (
     "Nothing that was measured predicts what is left, and no random torque makes it: noise of the sensor, such as "
     "edges that are missed, or something that was not recorded, may."
+)
+SCALED_BY_DISC = (
+    " In a part of a turn that makes the speeds larger or smaller throughout: kv and ka may be off by more than their "
+    "errors. Let the shaft turn round more than once."
 )
 UNMODELLED = "Check for a load, a supply or a sensor that was not recorded; the report shows the residual torque."
 
@@ -230,7 +235,9 @@ def _describe_undetermined(diagnosis: Diagnosis) -> str:
         return ""
     names = join_effects(diagnosis.undetermined)
     what = f"{capitalize(names)} may be there, too" if diagnosis.findings else f"It may be {names}"
-    return f"{what}, but this recording does not tell how much."
+    unturned = count_turns(diagnosis.after.intervals, diagnosis.after.angles) < LEAST_TURNS
+    scaled = unturned and any(EFFECT_BY_NAME[name].on_disc for name in diagnosis.undetermined)
+    return f"{what}, but this recording does not tell how much.{SCALED_BY_DISC if scaled else ''}"
 
 
 def _describe_ignored(ignored: Ignored) -> str:

@@ -6,7 +6,8 @@ from diagnosed import fitted
 from plant import profiles, record
 
 from motor_identification.diagnosis.candidate_fit import validate_model
-from motor_identification.diagnosis.detectability import find_undetectable, remove_imitation
+from motor_identification.diagnosis.detectability import find_undetectable, list_unturned_discs, remove_imitation
+from motor_identification.diagnosis.selection.selection import begin_selection
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.problem import make_problem
@@ -55,3 +56,23 @@ def test_what_repeats_shows_from_two_turns_on(turns: float, shown: bool) -> None
     model = validate_model(hold_out, fit_speeds(Estimate(problem, np.log([PAPER_KV, 0.02 * PAPER_KV]))))
     assert model.turns == pytest.approx(turns, abs=0.15)
     assert {"torque_ripple", "encoder_eccentricity"}.isdisjoint(find_undetectable(model)) is shown
+
+
+@pytest.mark.parametrize(
+    ("eccentricity", "turns", "told"),
+    [(0.1, 0.3, ("encoder_eccentricity",)), (0.0, 0.3, ()), (0.1, 2.4, ())],  # of more turns it is a finding, or none
+)
+def test_a_disc_that_hardly_comes_round_may_be_eccentric_where_the_motion_speaks_for_it(
+    eccentricity: float, turns: float, told: tuple[str, ...]
+) -> None:
+    """A shaft of an angle loop turned by 0.14, likelier by 118 with an eccentricity, which it "could not show"."""
+    kv, volts = 40.0 * PAPER_KV, np.random.default_rng(3).uniform(0.3, 1.0, 40) * 6.0
+    seconds = turns * np.pi * 2.0 * kv / volts
+    pieces = [profiles.pieces([v, -v], [s, s]) for v, s in zip(volts[:6], seconds[:6], strict=True)]
+    values = {"kv": kv, "ka": 0.02 * kv} | ({"eccentricity": eccentricity} if eccentricity else {})
+    drive = profiles.joined(*pieces)
+    recording = check(record(values, *drive, single_channel=False, edges=2400, seed=1)[0])
+    hold_out = make_hold_out([recording], [])
+    problem = hold_out.restrict(make_problem([recording], ()))
+    fit = fit_speeds(Estimate(problem, np.log([kv, 0.02 * kv])))
+    assert list_unturned_discs(begin_selection(fit, hold_out, 1)) == told

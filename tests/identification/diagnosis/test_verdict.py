@@ -120,6 +120,26 @@ def test_what_goes_with_time_or_angle_may_be_what_could_not_be_judged(
 
 
 @pytest.mark.parametrize(
+    ("variable", "effects", "judged", "barred"),
+    [
+        ("speed", ("coulomb_friction",), [], ("static_friction",)),
+        ("speed", ("coulomb_friction",), ["static_friction"], ()),  # which was tried, and is not it
+        ("speed", ("dead_zone",), [], ()),  # beside which no breakaway is tried
+        ("past", ("coulomb_friction",), [], ()),
+    ],
+)
+def test_what_goes_with_the_speed_may_be_a_breakaway_that_could_not_be_judged(
+    variable: str, effects: tuple[str, ...], judged: list[str], barred: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Under a PRBS of two levels it was said not to be in the table."""
+    model = stub_model(OVER, 0.0)
+    monkeypatch.setattr(type(model), "structure", (Structure(variable, 0.9, 90.0),))
+    monkeypatch.setattr(type(model), "effects", effects)
+    monkeypatch.setattr(verdicts, "list_candidates", lambda *_: judged)
+    assert list_unjudged_effects(chosen(model)) == barred
+
+
+@pytest.mark.parametrize(
     ("confirms", "verdict", "profile"), [(False, Verdict.UNDECIDED, "ramps"), (True, Verdict.EXPLAINED, "")]
 )
 def test_one_response_explains_nothing(confirms: bool, verdict: Verdict, profile: str) -> None:

@@ -142,6 +142,19 @@ def test_what_has_no_size_is_told_without_a_contradiction(variants: dict[Verdict
         assert "does not tell" not in summarize_diagnosis(variants[verdict])
 
 
+@pytest.mark.parametrize(
+    ("turns", "effect", "scaled"),
+    [(0.9, "encoder_eccentricity", True), (1.1, "encoder_eccentricity", False), (0.9, "warm_up", False)],
+)
+def test_a_disc_of_less_than_a_turn_may_scale_the_motor(
+    turns: float, effect: str, scaled: bool, variants: dict[Verdict, Diagnosis], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """kv was off by 3.5 %, 4.7 of its standard errors, and nothing said so."""
+    monkeypatch.setattr(diagnosis_text, "count_turns", lambda intervals, angles: turns)
+    said = summarize_diagnosis(replace(variants[Verdict.EXPLAINED], undetermined=(effect,)))
+    assert ("kv and ka may be off by more than their errors" in said) is scaled
+
+
 def test_a_finding_of_no_determined_size_may_be_missing_beside_one_that_is(variants: dict[Verdict, Diagnosis]) -> None:
     one = variants[Verdict.EXPLAINED]
     (found,) = one.findings
