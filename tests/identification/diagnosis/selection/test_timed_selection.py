@@ -14,6 +14,8 @@ from motor_identification.estimation.request import Request
 from motor_identification.timing.speed_filter import SpeedFilter
 from motor_identification.timing.timing import ASSUMED, OTHERS, UNTIL, Timing
 
+ROW = 0.01  # [s]
+
 
 @pytest.fixture(autouse=True)
 def untold_voltages(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -105,16 +107,48 @@ def test_the_nearest_model_is_asked_for_the_timing_where_something_is_left(
     assert (begun[-1] is nearest) is (above and not complete and steps and told and not explained)
 
 
+@pytest.mark.parametrize(
+    ("delay", "effects", "taken"),
+    [
+        (0.00591, ("backlash", "transport_delay"), False),
+        (0.00409, ("backlash", "transport_delay"), False),
+        (0.00611, ("backlash", "transport_delay"), True),
+        (0.00389, ("backlash", "transport_delay"), True),
+        (0.005, ("backlash",), True),
+    ],
+)
+def test_the_nearest_model_shows_no_instants_that_a_dead_time_makes_means_again(
+    monkeypatch: pytest.MonkeyPatch, delay: float, effects: tuple[str, ...], taken: bool
+) -> None:
+    """Of a breakaway under two levels a dead time of 0.985 of half a row was named, and a drag."""
+    nearest = SimpleNamespace(steps=(1,))
+    states = iter([(False, ("backlash",)), (True, effects)])
+
+    def select(*_: Any) -> Any:
+        complete, found = next(states)
+        estimate = SimpleNamespace(parameters=SimpleNamespace(value={"delay": delay}.__getitem__))
+        model = SimpleNamespace(held=SimpleNamespace(gap=1.0), above_floor=True, complete=complete, estimate=estimate)
+        return SimpleNamespace(selection=SimpleNamespace(model=model), effects=found, finished=True)
+
+    def look(_: Any, selection: Any, lagging: bool = False) -> Timing | None:
+        return OTHERS[0] if selection is nearest else None
+
+    rows = [SimpleNamespace(info=SimpleNamespace(sample_period=ROW))]
+    start, _ = select_from_assumed(monkeypatch, look, select, nearest, recordings=rows)
+    assert start.timing == (OTHERS[0] if taken else None)
+
+
 def select_from_assumed(
     monkeypatch: pytest.MonkeyPatch,
     look: Callable[..., Any],
     select: Callable[..., Any],
     best: Any = None,
     time: bool = True,
+    recordings: Any = (),
 ) -> tuple[Any, Any]:
     """What is selected where the timing is as assumed at first, and instants are all that is found otherwise."""
     first = SimpleNamespace(selection=None, timing=None)
-    again = SimpleNamespace(selection=None, timing=OTHERS[0])
+    again = SimpleNamespace(selection=None, timing=OTHERS[0], recordings=recordings)
     monkeypatch.setattr(timed_selection, "find_timing_beside", look)
     monkeypatch.setattr(timed_selection, "select_in_time", select)
     monkeypatch.setattr(timed_selection, "begin_as_timed", lambda one, timing, *_: again if timing else first)
@@ -240,9 +274,6 @@ def test_what_was_found_is_asked_for_another_timing_where_something_is_left_that
     reporter = SimpleNamespace(stopped=lambda: False, beyond=lambda _: None)
     start, _ = select_as_timed(SimpleNamespace(selection=None), Request(), reporter, limit)  # type: ignore[arg-type]
     assert start.timing == (slotted if taken else OTHERS[0])
-
-
-ROW = 0.01  # [s]
 
 
 @pytest.mark.parametrize(
