@@ -183,8 +183,15 @@ def _choose_first(findings: Sequence[CandidateTest]) -> CandidateTest:
 
 
 def _is_finding(test: CandidateTest) -> bool:
-    comes_back = has_waves(test) or is_heavy_load(test.model, test.effect)
-    return is_supported(test) and test.relevant and comes_back and not is_there_from_the_start(test)
+    return is_supported(test) and test.relevant and comes_back(test) and not is_there_from_the_start(test)
+
+
+def comes_back(test: CandidateTest) -> bool:
+    """Whether a test's effect comes back over the angle as often as it must, if it repeats, or is a load that need not.
+
+    What does not is no finding, however likely: neither by itself, nor in the place of one.
+    """
+    return has_waves(test) or is_heavy_load(test.model, test.effect)
 
 
 def is_there_from_the_start(test: CandidateTest) -> bool:

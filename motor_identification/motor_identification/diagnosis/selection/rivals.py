@@ -8,6 +8,7 @@ from motor_identification.diagnosis.candidate_fit import refit_without
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold, predicts_far_worse
 from motor_identification.diagnosis.effect_test import (
+    comes_back,
     count_parameters,
     is_there_from_the_start,
     list_candidates,
@@ -38,7 +39,11 @@ from motor_model.effects import EFFECT_BY_NAME, LAGS
 def try_in_place(
     selection: Selection, step: SelectionStep, without: Model, current: Model, reporter: ProgressReporter
 ) -> Selection:
-    """Try others in the place of a finding: what is better replaces it, and what does as well is a rival."""
+    """Try others in the place of a finding: what is better replaces it, and what does as well is a rival.
+
+    What does not come back over the angle is no finding, and takes no other's place. Measured: a disc that turned by
+    0.56 took that of a load, and half of a diagnosis of 106 s was spent on what goes with it.
+    """
     effect = step.found.effect
     others = list_replacements(step, without.effects, current.effects)
     if not others:
@@ -54,7 +59,8 @@ def try_in_place(
     settled = [settle(test, current, selection.hold_out) for test in tried]
     tests = sorted(settled, key=lambda test: test.evidence, reverse=True)
     current = catch_up(current, tests, selection.hold_out)
-    better = choose_better(_drop_without_own_evidence(tests, effect, without, current), effect, current)
+    told = [test for test in _drop_without_own_evidence(tests, effect, without, current) if comes_back(test)]
+    better = choose_better(told, effect, current)
     if better is None:
         return selection.replace_step(step, replace(step, rivals=_list_rivals(tests, effect, current)), current)
     bare = refit_without(better.model, better.effect, selection.hold_out)

@@ -50,6 +50,16 @@ def test_a_load_that_is_there_from_the_start_is_no_first_step_either(monkeypatch
     assert list_other_firsts(step_of(found, *tests)) == tests[1:]
 
 
+def test_what_does_not_come_back_over_the_angle_is_no_first_step(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A disc that turned by 0.56 was no finding, and a selection began with its eccentricity."""
+    before = stub_model(9.0)
+    found, others = stub_test("transport_delay", before, 5.0, 100.0), ("encoder_eccentricity", "load_bias")
+    tests = [stub_test(name, before, 5.0, 95.0) for name in others]
+    assert list_other_firsts(step_of(found, *tests)) == tests
+    monkeypatch.setattr(module, "comes_back", lambda test: test is not tests[0])
+    assert list_other_firsts(step_of(found, *tests)) == tests[1:]
+
+
 @pytest.mark.parametrize(
     ("found", "begun"),
     [

@@ -242,6 +242,28 @@ def test_what_is_there_from_the_start_takes_no_place(monkeypatch: pytest.MonkeyP
     assert left.found.effect == ("coulomb_friction" if at_once else "load_step")
 
 
+@pytest.mark.parametrize("comes_back", [True, False])
+def test_what_does_not_come_back_over_the_angle_takes_no_place_but_is_a_rival(
+    monkeypatch: pytest.MonkeyPatch, comes_back: bool
+) -> None:
+    """A disc that turned by 0.56 took a load's place, and half of 106 s went into what went with it."""
+    without = with_effects(stub_model(5.0, likelihood=-900.0))
+    current = with_effects(stub_model(2.0, likelihood=-200.0), "torque_ripple")
+    disc = "encoder_eccentricity"
+    step = step_of(CandidateTest("torque_ripple", without, current), stub_test(disc, without, 2.0, 600.0))
+    test = CandidateTest(disc, without, with_effects(stub_model(1.5, likelihood=-100.0), disc))
+    monkeypatch.setattr(module, "catch_up", lambda current, *_: current)
+    monkeypatch.setattr(module, "try_effects", lambda *_: [test])
+    monkeypatch.setattr(module, "drop_chance_harmonics", lambda tests: tests)
+    monkeypatch.setattr(module, "comes_back", lambda one: one is test and comes_back)
+    monkeypatch.setattr(module, "find_rivals", lambda *_: ())
+    monkeypatch.setattr(module, "_is_as_likely_from_there", lambda *_: False)
+    monkeypatch.setattr(module, "refit_without", lambda *_: without)
+    selection = replace(stub_selection(2.0, step), model=current)
+    (left,) = module.try_in_place(selection, step, without, current, SILENT).steps
+    assert (left.found.effect, left.rivals) == ((disc, ()) if comes_back else ("torque_ripple", (disc,)))
+
+
 @pytest.mark.parametrize(
     ("effect", "gap", "gain", "rivals"),
     [
