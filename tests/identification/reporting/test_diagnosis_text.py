@@ -149,7 +149,7 @@ def test_what_has_no_size_is_told_without_a_contradiction(variants: dict[Verdict
 def test_a_disc_of_less_than_a_turn_may_scale_the_motor(
     turns: float, effect: str, scaled: bool, variants: dict[Verdict, Diagnosis], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """kv was off by 3.5 %, 4.7 of its standard errors, and nothing said so."""
+    """A back-EMF was off by 3.5 %, 4.7 of its standard errors, and nothing said so."""
     monkeypatch.setattr(diagnosis_text, "count_turns", lambda intervals, angles: turns)
     said = summarize_diagnosis(replace(variants[Verdict.EXPLAINED], undetermined=(effect,)))
     assert ("kv and ka may be off by more than their errors" in said) is scaled
