@@ -39,7 +39,7 @@ SHELLS = re.compile(
 # Effects are rows of a table, and nothing else knows one of them by name; but for:
 SPECIAL = {
     "periodic/periodic_fit.py": "how each periodic effect is found: a line in a spectrum, or the first harmonic",
-    "diagnosis/verdict.py": "missed edges are counted in what a complete model leaves, not fitted",
+    "diagnosis/findings.py": "missed edges are counted in what a complete model leaves, not fitted",
     "live/speed_probe.py": "the model of the short ramp: as little as predicts a speed",
     "motor_control/parameters.py": "a parameter of the node with the same name",
     "motor_control/configuration.py": "the same parameter",

@@ -13,11 +13,12 @@ from time import perf_counter
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import tosses
 from motor_identification.diagnosis.evidence.sensor_lag import may_lag
+from motor_identification.diagnosis.findings import find_nearest
 from motor_identification.diagnosis.result import Diagnosis, Verdict
 from motor_identification.diagnosis.selection.selection import Selection
 from motor_identification.diagnosis.selection.timed_selection import select_as_timed
 from motor_identification.diagnosis.start import begin
-from motor_identification.diagnosis.verdict import conclude, find_nearest
+from motor_identification.diagnosis.verdict import conclude
 from motor_identification.estimation.request import Request
 from motor_identification.measurement.request_checks import check_effects
 from motor_identification.measurement.sanity_checks import find_undriven
