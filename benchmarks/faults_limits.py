@@ -12,6 +12,7 @@ from faults_motor import MOTORS
 from faults_supply import lose_motor_supply
 
 from motor_model.sensing.board import BoardConfig, SimulatedBoard
+from motor_ros.gate import APART
 
 MOTOR = MOTORS[2]
 
@@ -37,14 +38,14 @@ def higher_supply(rate: float) -> str:
 
 
 def second_sender(rate: float) -> str:
-    """Largest change of the voltage that a second sender of another voltage makes."""
-    loop = Loop(MOTOR, rate)
+    """Largest change of the voltage that a second sender of another voltage makes, whose numbers are far away."""
+    loop, first = Loop(MOTOR, rate), 10 * APART
     loop.raw = 6.0
     loop.run(0.5)
     begin = loop.time
     for k in range(round(rate)):
         loop.run(1.0 / rate)
-        loop.gate = loop.gate.take(-6.0, 2 + round(loop.time * 1e9), "", 1 + k)
+        loop.gate = loop.gate.take(-6.0, 2 + round(loop.time * 1e9), "", first + k)
     during = [moment for moment in loop.moments if moment.time > begin]
     said = loop.gate.problem(1 + round(loop.time * 1e9))
     return f"{max(abs(moment.voltage - 6.0) for moment in during):.2f} V; {said}"

@@ -16,7 +16,7 @@ from motor_control.parameters import ROWS
 from motor_model.sample import Sample
 from motor_model.sensing.board import BoardConfig, SimulatedBoard
 from motor_model.sensing.motion_check import MotionCheck
-from motor_ros.gate import Gate
+from motor_ros.gate import APART, Gate
 
 DEFAULTS = {row.name: row.default for row in ROWS}
 FOR_GOOD = 0.5  # [s] of 0 V in the end
@@ -59,7 +59,7 @@ class Loop:
     measured: bool = False  # the supply, which nobody has said
     goes_on: float | None = None  # [rad/s] somebody answers every stop at once, and asks for this
     alternate: bool = False  # somebody asks for an angle before every other sample, and for the speed before the others
-    second: float | None = None  # [V] that another sender sends beside the first one
+    second: float | None = None  # [V] that another sender sends beside the first one, with numbers far from its
     deaf: bool = False  # no voltage reaches the plant, and who sends does not know
     asleep: float = 0.0  # [s] for which the controller's computer, and its clock, has stood still in all
 
@@ -128,7 +128,7 @@ class Loop:
             self._control()
         if self.second is not None:
             self._others += 1
-            self.gate = self.gate.take(self.second, self._now, "", self._others)
+            self.gate = self.gate.take(self.second, self._now, "", 10 * APART + self._others)
         said = self.gate.problem(self._now) or self._reason
         self.moments.append(Moment(self.time, true.voltage, self.board.speed, said))
         self._samples += 1

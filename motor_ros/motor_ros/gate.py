@@ -9,12 +9,13 @@ that was forgotten, and the motor has just been stopped. So has who went on send
 second and more, because its link was away or the plant stood still: the motor has stood meanwhile, and nobody expects
 it to go on by itself.
 
-That there are two is said once the first is heard again after the other: one sender that was held up sends what it has
+That there are two is known once the first is heard again after the other: one sender that was held up sends what it has
 missed all at once, more than is kept, and its numbers jump ahead as another's would. Its next numbers go on from there.
 
-Two that call themselves the same are told apart by their numbers. Where a command that is taken may as well have been
-the other's, as its numbers are close and come unevenly, nobody knows whose voltage it is: the motor gets 0 V as long as
-both are heard, and who is left has to begin at 0 V.
+Two that call themselves the same are told apart by their numbers alone, and only where these are so far APART that
+neither can reach the other's while it is waited for. Where they are closer a message that is late, or lost, makes one
+pass for the other, and nobody knows whose voltage it is: the motor gets 0 V as long as both are heard, whatever they
+send and whoever switches on, and who is left has to begin at 0 V.
 
 Where the motor itself was the reason of a stop, it is let on again later and later: see `RepeatedStops`. Who goes on
 calling motor/enable with data: true through a stop, or somebody else's data: false, has not seen it.
@@ -26,7 +27,7 @@ from dataclasses import dataclass, replace
 from math import isfinite
 
 from motor_model.sensing.repeated_stops import RepeatedStops
-from motor_ros.sender import QUICKEST, Sender
+from motor_ros.sender import CLOSEST, QUICKEST, Sender
 
 QUIET = 2_000_000_000  # [ns] without any voltage; where nobody counts, who sent before would have been heard by then
 PACE = 50_000_000, 500_000_000  # [ns] after its first command within which a sender's pace is judged
@@ -37,7 +38,7 @@ SLACK = 100_000_000  # [ns] by which a sender may have begun too early: nobody s
 YOUNG, YOUNG_ANSWER = 1_000_000_000, 100_000_000
 ANSWERS = 2.0  # sample periods from command to command, up to which a sender may be answering samples
 HOLD = 500_000_000  # [ns] of silence after which another sender is obeyed: longer than a busy computer holds one up
-MISSED = 1.5  # times between two commands, after which one of two senders has missed its turn
+APART = round(HOLD / (CLOSEST * QUICKEST))  # numbers that no sender goes on by while another is waited for
 AWAY = 1_000_000_000  # [ns] without a voltage, after which a motor that goes on by itself is a surprise
 UNHEARD = 10  # commands more than that are not lost to a plant that looks less often than they come: it heard none
 CALLS, PAUSE = 3, 500_000_000  # to switch on what is on, each within a PAUSE [ns] of the one before: no hand does that
@@ -67,7 +68,7 @@ TWO_SENDERS = (
 )
 MIXED = (
     "More than one node sends motor/voltage{}, all with frame_id '{}', and whose command is whose cannot be told: the"
-    " motor gets 0 V; end all but one, and let that one send 0 V, or call motor/enable with data: true."
+    " motor gets 0 V; end all but one, and {:g} s later let that one send 0 V, or call motor/enable with data: true."
 )
 NO_NUMBER = "{:g} on motor/voltage is not a number (frame_id '{}'{}): {}; send numbers, or end who sends it."
 GETS_NOTHING = "the motor gets 0 V until the next number"
@@ -102,11 +103,10 @@ class Gate:
     command: float = 0.0  # [V]
     received: int | None = None  # [ns]
     sender: Sender | None = None  # of that command
-    aside: Sender | None = None  # the latest command that seemed another's, until the sender is heard again
-    rival: str | None = None  # what another sender calls itself that sends at the same time
-    rival_at: int = 0  # [ns] when the two had both been heard
-    beside: Sender | None = None  # the rival's latest command that was left aside
-    mixed: bool = False  # since both are heard, a command that was taken may have been the rival's
+    aside: Sender | None = None  # what tells most of those that seemed another's, until the sender is heard again
+    rival: Sender | None = None  # another sender's latest command that was left aside while both sent
+    rival_at: int = 0  # [ns] when the two had both been heard, or one of them was left aside since
+    mixed: bool = False  # since both are heard, they have one name and close numbers
     refused: int = 0  # commands that were not numbers
     no_number: NoNumber | None = None  # the latest of those
     calls: int = 0  # to switch on what was on, one soon after the other
@@ -131,22 +131,21 @@ class Gate:
         if not isfinite(voltage):
             return self._refuse(voltage, now, name, number)
         holder, what = self.sender, (voltage, now, name, number, waited, sent)
-        ours = holder is not None and holder.sent(name, number, now) and not self._goes_on(name, number, now)
+        ours = holder is not None and holder.sent(name, number, now)
         if holder is not None and now - holder.at <= HOLD and not ours:
-            return replace(self, aside=Sender(name, number, now))
+            return self._leave_aside(Sender(name, number, now))
         unheard = holder is not None and self._goes_on_unheard(holder, ours, number, now)
         if holder is not None and unheard and not ours:
             return replace(self.come_up(holder.at), sender=None, away=True).take(*what)
-        told = self._tell_senders(number, now) if ours else replace(self, aside=None, beside=None, mixed=False)
-        unsure = told._may_be_the_rivals(name, number, now)
+        told = self._tell_senders(number, now) if ours else replace(self, aside=None)
+        mixed = told.mixed and told.conflict(now)
         sender = holder.after(number, now) if holder is not None and ours else Sender(name, number, now)
         first = self.first if ours and self.first is not None else sender
-        handed = voltage != 0.0 and (self.handed or unsure or (not ours and self.conflict(now)))
+        handed = mixed or (voltage != 0.0 and (self.handed or (not ours and self._was_left(name, number, now))))
         begun = self.begun or voltage == 0.0 or _began(first, number, now, self.since, self.sample_period * 1e9)
         begun = begun and not handed
         received = now - waited if sent is None or sent >= self.switched else None
-        told = replace(told, command=voltage, received=received, sender=sender, first=first, handed=handed)
-        told = replace(told, mixed=unsure or (told.mixed and self.conflict(now)))
+        told = replace(told, command=voltage, received=received, sender=sender, first=first, handed=handed, mixed=mixed)
         if voltage != 0.0 and (unheard or waited > max(AWAY, self.timeout * 1e9)):  # it began before, whatever its pace
             return replace(told, first=replace(first, number=None), begun=False, away=True)
         return replace(told, begun=begun)
@@ -154,7 +153,7 @@ class Gate:
     def _refuse(self, voltage: float, now: int, name: str, number: int | None) -> "Gate":
         stops = self._may_be_obeyed(name, number, now)
         told = replace(self, refused=self.refused + 1, no_number=NoNumber(voltage, name, now, stops))
-        return replace(told, command=0.0, received=None) if stops else replace(told, aside=Sender(name, number, now))
+        return replace(told, command=0.0, received=None) if stops else told._leave_aside(Sender(name, number, now))
 
     def _may_be_obeyed(self, name: str, number: int | None, now: int) -> bool:
         """Whether a command may be of the sender that is obeyed, also where it came sooner than its own would."""
@@ -166,8 +165,7 @@ class Gate:
     def goes_on(self, name: str, number: int | None, now: int) -> bool:
         """Whether a command at `now` [ns] is the next one of the sender that is obeyed."""
         holder = self.sender
-        heard = holder is not None and now - holder.at <= HOLD and holder.sent(name, number, now)
-        return heard and not self._goes_on(name, number, now)
+        return holder is not None and now - holder.at <= HOLD and holder.sent(name, number, now)
 
     def _goes_on_unheard(self, holder: Sender, ours: bool, number: int | None, now: int) -> bool:
         """Whether a sender, the latest or another, has sent for long while nothing was heard, and the motor stood."""
@@ -175,31 +173,41 @@ class Gate:
             return False
         return number - (holder.number or 0 if ours else 0) > UNHEARD
 
-    def _goes_on(self, name: str, number: int | None, now: int) -> bool:
-        """Whether a message whose number may be the sender's is another's that goes on where the sender has ended."""
-        holder, aside = self.sender, self.aside
-        if holder is None or aside is None or not self.conflict(now) or aside.at <= holder.at:
+    def _leave_aside(self, message: Sender) -> "Gate":
+        """A message that does not seem the sender's is left aside; as long as that goes on, the two are in conflict."""
+        told = max(filter(None, (self.aside, message)), key=self._tells)
+        return replace(self, aside=told, rival_at=message.at if self.conflict(message.at) else self.rival_at)
+
+    def _tells(self, message: Sender) -> tuple[bool, bool, int, int]:
+        """Rank what is left aside: what the sender has not sent, then what may be taken for its own, then the latest.
+
+        Its own next number is ahead of all that it has sent before in a hurry, so that of those the last one tells.
+        """
+        holder = self.sender
+        ahead = holder is None or holder.sent_between(message, None)
+        return not ahead, self._is_close(message), message.number or 0, message.at
+
+    def _is_close(self, other: Sender) -> bool:
+        """Whether another's messages may be taken for the sender's."""
+        holder = self.sender
+        if holder is None or holder.name != other.name or holder.number is None or other.number is None:
             return False
-        return now - holder.at > MISSED * (holder.period or QUICKEST) and aside.sent(name, number, now)
+        return abs(holder.number - other.number) < APART
 
     def _tell_senders(self, number: int | None, now: int) -> "Gate":
         """The sender is heard again: what was left aside was another's, unless it was sent between its two commands."""
         holder, aside = self.sender, self.aside
         if holder is None or aside is None or now - aside.at > HOLD or holder.sent_between(aside, number):
             return replace(self, aside=None)
-        return replace(self, aside=None, rival=aside.name, rival_at=now, beside=aside)
+        mixed = self._is_close(aside) or (self.mixed and self.conflict(now))
+        return replace(self, aside=None, rival=aside, rival_at=now, mixed=mixed)
 
-    def _may_be_the_rivals(self, name: str, number: int | None, now: int) -> bool:
-        """Whether a command that may be the sender's is as soon that of a rival with its name, or one before was."""
-        holder, beside = self.sender, self.beside if self.conflict(now) else None
-        if holder is None or beside is None or beside.name != name:
-            return False
-        if number is None or holder.number is None or beside.number is None:
-            return True
-        jumped = holder.jumped_from is not None and now - holder.jumped <= CONFLICT
-        if jumped and (holder.jumped_from or 0) < beside.number < holder.number:
-            return True  # the first goes on where it was, and who is obeyed is the one that came farther ahead
-        return beside.number >= holder.number and replace(beside, period=holder.period).sent(name, number, now)
+    def _was_left(self, name: str, number: int | None, now: int) -> bool:
+        """Whether who takes over was left aside before, as far as anybody can tell: just now, or by its numbers."""
+        rival = self.rival
+        if rival is None or self.conflict(now):
+            return rival is not None
+        return number is not None and rival.number is not None and rival.sent(name, number, now)
 
     def enable(self, on: bool, now: int = 0) -> "Gate":
         """Switch the output at `now` [ns], by the user's will; a command from before the switch never acts."""
@@ -257,12 +265,19 @@ class Gate:
         among = f"; {senders}" if senders else ""
         return NO_NUMBER.format(odd.voltage, odd.name, among, GETS_NOTHING if odd.stops else LEFT_ASIDE)
 
+    def tell_mixed(self, now: int, senders: str = "") -> str:
+        """Say that whose command is whose cannot be told at `now` [ns]; empty if it can."""
+        if not self.mixed or not self.conflict(now) or self.rival is None:
+            return ""
+        return MIXED.format(f" ({senders})" if senders else "", self.rival.name, CONFLICT * 1e-9)
+
     def _tell_of_senders(self, now: int, senders: str) -> str:
+        if mixed := self.tell_mixed(now, senders):
+            return mixed
         if self.conflict(now):
             among = f" ({senders})" if senders else ""
-            if self.mixed:
-                return MIXED.format(among, self.rival)
-            obeyed = f"frame_id '{self.sender.name}'" if self.sender and self.sender.name != self.rival else "the first"
+            rival, sender = self.rival, self.sender
+            obeyed = f"frame_id '{sender.name}'" if sender and rival and sender.name != rival.name else "the first"
             return TWO_SENDERS.format(among, obeyed, HOLD * 1e-9)
         if self.enabled and not self.begun and self.fresh(now):
             return (HANDED if self.handed else AWAY_LINK if self.away else WAITING).format(self.command)

@@ -221,7 +221,8 @@ class Plant:
         given up long ago.
         """
         stood = STOOD_STILL if self._hold_ups.bars(0) else ""
-        return self.gate.refusal(now) or stood or self._find_others(now) or self._refusal()
+        mixed = self.gate.tell_mixed(now, self._input.senders(self._node))
+        return self.gate.refusal(now) or stood or self._find_others(now) or mixed or self._refusal()
 
     def _refuse(self, _: SetBool.Request, response: SetBool.Response, why: str) -> SetBool.Response:
         response.success, response.message = False, f"{STAYS[self.gate.enabled]} {why}"

@@ -18,8 +18,6 @@ class Sender:
     number: int | None
     at: int  # [ns] when it came
     period: int = 0  # [ns] the shortest between two with successive numbers; 0: not known
-    jumped_from: int | None = None  # the number before the latest ones that are missing
-    jumped: int = 0  # [ns] when the one behind those came
 
     def sent(self, name: str, number: int | None, now: int) -> bool:
         """Whether a message that comes at `now` [ns] is this sender's next one, or a later one."""
@@ -34,9 +32,9 @@ class Sender:
         """Whether this sender may have sent a message that seemed another's, before its own one with this number."""
         if message.name != self.name:
             return False
-        if self.number is None or message.number is None or number is None:
+        if self.number is None or message.number is None:
             return True
-        return self.number < message.number < number
+        return self.number < message.number and (number is None or message.number < number)
 
     def after(self, number: int | None, now: int) -> "Sender":
         """This sender after one more message.
@@ -45,6 +43,6 @@ class Sender:
         messages come as quickly as ever, and some of them are lost.
         """
         if number is None or self.number is None or number != self.number + 1:
-            return Sender(self.name, number, now, self.period, self.number, now)
+            return Sender(self.name, number, now, self.period)
         took = max(now - self.at, QUICKEST)
         return replace(self, number=number, at=now, period=min(took, self.period or took))

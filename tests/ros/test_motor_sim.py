@@ -18,6 +18,7 @@ from motor_model.parameters import PAPER_KV, Parameters
 from motor_model.sensing.motion_check import NEVER
 from motor_msgs.msg import ControlState, MotorInfo, MotorSpeed
 from motor_ros import qos
+from motor_ros.gate import APART
 from motor_ros.messages import time_message
 from motor_sim.node import MOST_BEHIND, STILL, find_due
 
@@ -142,6 +143,7 @@ def test_two_senders_are_named_and_the_first_is_obeyed(bench: Bench, start: Star
     status = bench.hear(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
     start("motor_sim", "motor_sim", *PATIENT)
     user.voltage = 5.0
+    bench.wait(lambda: len(user.samples) > 1.2 * APART, "numbers that no newcomer's can be taken for")
     user.until(lambda sample: sample.voltage == 5.0, "motion")
     other = User(bench)  # of the same name and pace
     other.voltage = -9.0
@@ -151,6 +153,25 @@ def test_two_senders_are_named_and_the_first_is_obeyed(bench: Bench, start: Star
     user.sending = False
     bench.wait(lambda: "beside another node that drove the motor" in messages(status), "what the other one waits for")
     assert {sample.voltage for sample in other.samples[30:]} == {5.0, 0.0}
+    assert bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
+    user.until(lambda sample: sample.voltage == -9.0, "the other one's turn")
+
+
+@pytest.mark.on_time
+def test_of_two_senders_of_one_name_that_start_together_none_is_obeyed(bench: Bench, start: Start, user: User) -> None:
+    status = bench.hear(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
+    start("motor_sim", "motor_sim", *PATIENT)
+    other = User(bench)
+    user.voltage, other.voltage = 5.0, -9.0
+    bench.wait(lambda: "whose command is whose cannot be told" in messages(status), "the conflict")
+    begin = len(other.samples)
+    bench.wait(lambda: len(other.samples) > begin + 300, "more of both")
+    assert {sample.voltage for sample in other.samples[begin:]} == {0.0}
+    refused = bench.call(SetBool, "motor/enable", SetBool.Request(data=True))
+    assert not refused.success and "(/bench, /bench), all with frame_id 'user'" in refused.message
+    user.sending = False
+    bench.wait(lambda: "beside another node that drove the motor" in messages(status), "what the other one waits for")
+    assert {sample.voltage for sample in other.samples[begin:]} == {0.0}
     assert bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
     user.until(lambda sample: sample.voltage == -9.0, "the other one's turn")
 

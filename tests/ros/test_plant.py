@@ -17,10 +17,10 @@ from motor_model.sample import Info, Sample
 from motor_msgs.msg import MotorInfo, MotorVoltage
 from motor_ros import qos
 from motor_ros.clocks.hold_ups import STOOD_STILL, HoldUps
-from motor_ros.gate import Gate
+from motor_ros.gate import CONFLICT, Gate
 from motor_ros.graph.acquaintances import Verdict
 from motor_ros.messages import info_message, time_message
-from motor_ros.plant import Plant
+from motor_ros.plant import STAYS, Plant
 
 
 def asked(plant: Plant, on: bool) -> tuple[bool, str]:
@@ -109,6 +109,19 @@ def test_a_voltage_that_was_on_its_way_when_the_motor_was_switched_does_not_act(
     about |= {"source_timestamp": time.time_ns(), "publication_sequence_number": 8}
     plant._input._on_message(MotorVoltage(voltage=5.0), about)
     assert plant.gate.voltage(now) == 5.0  # its sender goes on, and is the same
+
+
+def test_nobody_switches_on_while_two_senders_cannot_be_told_apart(bench: Bench) -> None:
+    """The answer was "The output is on", and the motor got 0 V."""
+    plant = Plant(bench.node, Info(), Gate(True, 0.1))
+    now = time.monotonic_ns()
+    for number in (1, 1, 2):  # of two under one frame_id
+        plant.gate = plant.gate.take(6.0, now, "one", number)
+    success, said = asked(plant, True)
+    assert not success and said.startswith(f"{STAYS[True]} More than one node sends motor/voltage")
+    assert asked(plant, False)[0]
+    plant.gate = replace(plant.gate, rival_at=now - CONFLICT)
+    assert asked(plant, True)[0]
 
 
 def test_a_motor_that_stops_again_and_again_is_switched_on_later_and_later(bench: Bench) -> None:
