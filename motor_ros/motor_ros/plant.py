@@ -19,6 +19,7 @@ from motor_ros.gate import AWAY, CONFLICT, OFF, STOPPED, Gate
 from motor_ros.graph.callers import Callers
 from motor_ros.graph.commanders import Commanders
 from motor_ros.graph.other_plant import OtherPlant
+from motor_ros.graph.process_number import tell_crowd
 from motor_ros.graph.publishers import count_publishers
 from motor_ros.graph.unheard import Unheard
 from motor_ros.messages import diagnostic_message, info_message, speed_message, stamp_age
@@ -35,6 +36,7 @@ OLD = (
 )
 STAYS = "The output stays off.", "The output is on, and the motor stays at 0 V."  # when a call is refused: off, on
 JUST_NOW = "Just now, {}: look, then call again."
+LOOK_FOR_CROWD_EVERY = 5_000_000_000  # [ns] it takes half a millisecond
 NAME = 80  # characters of a sender's frame_id that are looked at and said
 UNHEARD = "References are published on {} and nobody hears them: start motor_control in this namespace."
 
@@ -66,6 +68,7 @@ class Plant:
         self._best_effort = Unheard(node, "motor/voltage")
         self._unheard = 0  # diagnostics in a row in which nobody heard references
         self._old, self._old_at = "", 0  # the latest voltage with an old stamp, as a sentence, and when [ns] that was
+        self._crowd, self._crowd_at = "", 0  # that there are too many processes, and when [ns] they were counted
         self._hold_ups = HoldUps(node)
         self._input = NumberedInput(
             node,
@@ -142,7 +145,7 @@ class Plant:
         gate = self.gate.problem(now, self._input.senders(self._node))
         old = self._old if now - self._old_at <= CONFLICT else ""
         around = self._find_others(now), self._look_for_controller(), self._best_effort.look()
-        message = " ".join(filter(None, (problem, *around, old, gate)))
+        message = " ".join(filter(None, (problem, *around, old, gate, self._look_for_crowd(now))))
         level = DiagnosticStatus.WARN if message else DiagnosticStatus.OK
         sender = self.gate.sender.name if self.gate.sender and self.gate.fresh(now) else ""
         told = diagnostic_message(
@@ -160,6 +163,14 @@ class Plant:
         if players := self._commanders.players:
             return PLAYED.format(self._node.resolve_topic_name("motor/voltage"), players)
         return self._other.problem(now)
+
+    def _look_for_crowd(self, now: int) -> str:
+        """Say that there are processes on this machine that do not find each other; this one is found."""
+        if now - self._crowd_at >= LOOK_FOR_CROWD_EVERY:
+            before, self._crowd, self._crowd_at = self._crowd, tell_crowd(self._node), now
+            if self._crowd and not before:
+                self._node.get_logger().warning(self._crowd)
+        return self._crowd
 
     def _look_for_controller(self) -> str:
         """Say that references are published and no controller is there, as where it is in another namespace."""

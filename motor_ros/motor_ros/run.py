@@ -20,6 +20,7 @@ from motor_model.program.internal_error import report
 from motor_model.program.starter import read_starter, watch_starter
 from motor_ros.clocks.clock_watch import ClockWatch
 from motor_ros.graph.open_sockets import refuse_open_sockets
+from motor_ros.graph.process_number import refuse_crowd, tell_crowd
 from motor_ros.loopback import stay_on_this_machine
 from motor_ros.parameter_requests import check_parameter_requests
 from motor_ros.parameters import given_parameters, unknown_parameters
@@ -167,6 +168,10 @@ def run(
         start_ros(args)
         node = _created(create)
         refuse_open_sockets(node)
+        if hasattr(node, "doubt"):
+            refuse_crowd(node)
+        elif crowd := tell_crowd(node):
+            node.get_logger().warning(crowd)
         check_parameter_requests(node)
         for warning in unknown_parameters(node, program.rows if program else ()):
             node.get_logger().warning(warning)

@@ -36,10 +36,10 @@ def refuse_open_sockets(node: Node, environment: Mapping[str, str] = os.environ)
     if not reads_profiles(environment) or environment.get(RANGE) in OPENED_RANGES:
         return
     try:
-        own = _own_sockets()
+        own = own_sockets()
     except OSError:
         return
-    if count_open(node.context.get_domain_id(), map(_read, TABLES), own) >= LISTENING:
+    if count_open(node.context.get_domain_id(), map(read_table, TABLES), own) >= LISTENING:
         raise MotorError(REFUSED.format(environment.get(PROFILE, "")))
 
 
@@ -52,7 +52,7 @@ def count_open(domain: int, tables: Iterable[str], own: Iterable[str]) -> int:
     return sum(not address.strip("0") and int(port, 16) in ports for address, port in open_ones)
 
 
-def _read(table: Path) -> str:
+def read_table(table: Path) -> str:
     """Read a table of the kernel's; "" where there is none, as of a kernel without IPv6."""
     try:
         return table.read_text()
@@ -60,7 +60,7 @@ def _read(table: Path) -> str:
         return ""
 
 
-def _own_sockets() -> set[str]:
+def own_sockets() -> set[str]:
     """Read the inodes of this process's sockets; a descriptor that is closed meanwhile is none."""
     found = set()
     for one in os.listdir("/proc/self/fd"):
