@@ -15,7 +15,8 @@ missed all at once, more than is kept, and its numbers jump ahead as another's w
 Two that call themselves the same are told apart by their numbers alone, and only where these are so far APART that
 neither can reach the other's while it is waited for. Where they are closer a message that is late, or lost, makes one
 pass for the other, and nobody knows whose voltage it is: the motor gets 0 V as long as both are heard, whatever they
-send and whoever switches on, and who is left has to begin at 0 V.
+send and whoever switches on, and who is left has to begin at 0 V. A single 0 V that is left aside, such as the last
+word of a controller, mixes nothing.
 
 Where the motor itself was the reason of a stop, it is let on again later and later: see `RepeatedStops`. Who goes on
 calling motor/enable with data: true through a stop, or somebody else's data: false, has not seen it.
@@ -133,7 +134,7 @@ class Gate:
         holder, what = self.sender, (voltage, now, name, number, waited, sent)
         ours = holder is not None and holder.sent(name, number, now)
         if holder is not None and now - holder.at <= HOLD and not ours:
-            return self._leave_aside(Sender(name, number, now))
+            return self._leave_aside(Sender(name, number, now, moves=voltage != 0.0))
         unheard = holder is not None and self._goes_on_unheard(holder, ours, number, now)
         if holder is not None and unheard and not ours:
             return replace(self.come_up(holder.at), sender=None, away=True).take(*what)
@@ -141,7 +142,9 @@ class Gate:
         mixed = told.mixed and told.conflict(now)
         sender = holder.after(number, now) if holder is not None and ours else Sender(name, number, now)
         first = self.first if ours and self.first is not None else sender
-        handed = mixed or (voltage != 0.0 and (self.handed or (not ours and self._was_left(name, number, now))))
+        resumes = holder is not None and now - holder.at > HOLD and self._rivals_name(name) and self.conflict(now)
+        left = resumes or (not ours and self._was_left(name, number, now))
+        handed = mixed or (voltage != 0.0 and (self.handed or left))
         begun = self.begun or voltage == 0.0 or _began(first, number, now, self.since, self.sample_period * 1e9)
         begun = begun and not handed
         received = now - waited if sent is None or sent >= self.switched else None
@@ -178,14 +181,14 @@ class Gate:
         told = max(filter(None, (self.aside, message)), key=self._tells)
         return replace(self, aside=told, rival_at=message.at if self.conflict(message.at) else self.rival_at)
 
-    def _tells(self, message: Sender) -> tuple[bool, bool, int, int]:
+    def _tells(self, message: Sender) -> tuple[bool, bool, bool, int, int]:
         """Rank what is left aside: what the sender has not sent, then what may be taken for its own, then the latest.
 
         Its own next number is ahead of all that it has sent before in a hurry, so that of those the last one tells.
         """
         holder = self.sender
         ahead = holder is None or holder.sent_between(message, None)
-        return not ahead, self._is_close(message), message.number or 0, message.at
+        return not ahead, self._is_close(message), message.moves, message.number or 0, message.at
 
     def _is_close(self, other: Sender) -> bool:
         """Whether another's messages may be taken for the sender's."""
@@ -199,8 +202,12 @@ class Gate:
         holder, aside = self.sender, self.aside
         if holder is None or aside is None or now - aside.at > HOLD or holder.sent_between(aside, number):
             return replace(self, aside=None)
-        mixed = self._is_close(aside) or (self.mixed and self.conflict(now))
+        again = self.conflict(now)
+        mixed = (self._is_close(aside) and (aside.moves or again)) or (self.mixed and again)
         return replace(self, aside=None, rival=aside, rival_at=now, mixed=mixed)
+
+    def _rivals_name(self, name: str) -> bool:
+        return self.rival is not None and self.rival.name == name
 
     def _was_left(self, name: str, number: int | None, now: int) -> bool:
         """Whether who takes over was left aside before, as far as anybody can tell: just now, or by its numbers."""

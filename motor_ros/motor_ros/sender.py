@@ -18,6 +18,7 @@ class Sender:
     number: int | None
     at: int  # [ns] when it came
     period: int = 0  # [ns] the shortest between two with successive numbers; 0: not known
+    moves: bool = True  # what it asks for moves something
 
     def sent(self, name: str, number: int | None, now: int) -> bool:
         """Whether a message that comes at `now` [ns] is this sender's next one, or a later one."""

@@ -215,6 +215,45 @@ def test_who_was_left_aside_begins_at_0_volt_however_seldom_it_sends(name: str, 
     assert "beside another node that drove the motor" in plant.problem(T0 + at * MS + 1)
 
 
+@pytest.mark.parametrize(("again", "acts"), [(None, True), (CONFLICT // MS + 5, True), (CONFLICT // MS - 5, False)])
+def test_a_single_0_volt_beside_another_stops_nobody(again: int | None, acts: bool) -> None:
+    """The last word of a controller that was idle, under the motor's name as the one that drives; [ms] to the next."""
+    plant = stream(gate(), 6.0, range(0, 500, 5), 1)
+    for k in range(400):
+        now = T0 + (500 + 5 * k) * MS
+        plant = plant.take(6.0, now, "", 101 + k)
+        assert plant.voltage(now) == (6.0 if acts or again is None or 5 * k <= again else 0.0)
+        if k == 0 or again is not None and 5 * k == again:
+            plant = plant.take(0.0, now + MS, "", 1 + k)
+        assert plant.conflict(now) or k == 0 or 5 * k > CONFLICT // MS
+
+
+def test_who_comes_ahead_of_one_that_holds_0_volt_does_not_take_over() -> None:
+    """Two of its messages acted at most, as they were such as the first would have sent next."""
+    plant = stream(gate(), 0.0, range(0, 500, 10), 1)
+    plant = plant.take(6.0, T0 + 495 * MS, "", 51)
+    for k in range(200):
+        now = T0 + (500 + 10 * k) * MS
+        plant = plant.take(0.0, now, "", 51 + k).take(6.0, now + 5 * MS, "", 52 + k)
+        assert plant.voltage(now + 5 * MS) == (6.0 if k < 1 else 0.0)
+
+
+@pytest.mark.parametrize("ahead", [APART + 1, APART + 50, APART + 300])
+@pytest.mark.parametrize("period", [1, 5, 80])
+def test_who_is_far_ahead_is_not_the_first_that_has_paused(ahead: int, period: int) -> None:
+    """Its numbers are such as the first, at 1 kHz, may have reached once it has been waited for."""
+    plant, other = stream(gate(), 2.0, range(0, 500, 1), 1), 1_001 + ahead
+    for at in range(500, 1_000):
+        plant = plant.take(2.0, T0 + at * MS, "", 1 + at)
+        if at % period == 0:
+            plant, other = plant.take(-9.0, T0 + at * MS + 1, "", other), other + 1
+        assert plant.voltage(T0 + at * MS + 1) == 2.0
+    for at in range(-(-1_000 // period) * period, 6_000, period):
+        plant, other = plant.take(-9.0, T0 + at * MS + 1, "", other), other + 1
+        assert plant.voltage(T0 + at * MS + 1) != -9.0
+    assert "beside another node that drove the motor" in plant.problem(T0 + at * MS + 1)
+
+
 def test_no_0_volt_lets_anybody_go_on_while_two_cannot_be_told_apart() -> None:
     """The first holds 0 V and ends; the other, of its name, has 6 V to go on with."""
     plant = stream(gate(), 0.0, range(0, 500, 5), 1)
