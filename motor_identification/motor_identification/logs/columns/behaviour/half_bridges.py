@@ -16,6 +16,7 @@ from motor_identification.logs.columns.vocabulary import DIRECTIONS, MOVES, Quan
 from motor_identification.logs.csv.table import Table
 
 Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
 
 FEWEST_ROWS = 10  # in which each pin is on
 MOST_LATE = 3  # rows by which a motion follows its pins
@@ -26,6 +27,9 @@ SURE = 5.0  # standard errors of what a pin does to the motion
 EXPLAINED = 0.2  # of what a motion's own speed before leaves open, that its pins explain
 ALIKE = 0.2  # of what one pin does, that the other one does at least: the same motor goes the other way
 BOTH_WAYS = 0.05  # of the largest speed, that a motor has the other way
+# Times as fast where neither of them is on as where one is: no pins. Measured: 2.0 and more of the switches at the ends
+# of a slide that goes to and fro, 1.2 and less of the pins of motors of 80 ms to 2 s in pulses of 30 to 120 ms.
+RUNS_ON = 1.5
 _ENABLES = words_of("ena enb en")  # of an L298N: the pin whose duty its inputs turn
 JOINED = "Voltage: {0} less {1}, as the motion goes with each, as with the pins of a bridge (otherwise: --voltage)."
 NAMED = "Voltage: {0} less {1}, as pins of a bridge that are never on together (otherwise: --voltage)."
@@ -81,11 +85,14 @@ def _join(table: Table, one: str, other: str, beside: Sequence[Heading], said: S
     drive = _find_turned(table, beside, first, second, said)
     if drive is None:
         return None
+    driven = np.ones(len(table), np.bool_) if not drive else table.numbers(drive) > 0.0
+    on, off = driven & (first != second), driven & (first == second)
+    speeds = [speed for speed in _speeds(table, beside, drive, said) if not _runs_on(speed, on, off)]
     if drive:
         size = table.numbers(drive) / max(float(np.max(first)), float(np.max(second)))
         first, second = size * first, size * second
     pins = not drive and _are_pins(one, other)
-    sign = next(filter(None, (_sign(one, first, second, pins) for one in _speeds(table, beside, drive, said))), 0)
+    sign = next(filter(None, (_sign(speed, first, second, pins) for speed in speeds)), 0)
     told = bool(sign)
     if not sign and pins and not np.any(first * second):
         sign = 1  # which way is forward is told later, by the motion
@@ -151,6 +158,12 @@ def _speeds(table: Table, beside: Sequence[Heading], drive: str, said: Said) -> 
     found = [table.numbers(one.name) for one in moving if one.quantity is not Quantity.POSITION]
     steps = [table.numbers(one.name) for one in moving if one.quantity is not Quantity.SPEED]
     return [*found, *(np.diff(values, prepend=values[:1]) for values in steps)]
+
+
+def _runs_on(speed: Floats, on: Bools, off: Bools) -> bool:
+    """Whether a speed is not driven by pins, as it is larger where neither is on than where one is; of shape (K,)."""
+    size = np.abs(speed)
+    return bool(off.any() and on.any() and np.mean(size[off]) > RUNS_ON * np.mean(size[on]))
 
 
 def _sign(speed: Floats, first: Floats, second: Floats, unsigned: bool) -> int:

@@ -120,6 +120,38 @@ def test_pins_of_two_levels_turn_a_duty_without_a_sign(name: str) -> None:
         assert join_half_bridge(table, Said()) is table
 
 
+@pytest.mark.parametrize("seconds", [0.02, 0.08, 0.3])
+@pytest.mark.parametrize("seed", range(4_360_000, 4_360_003))
+def test_switches_at_the_ends_of_a_slide_are_no_pins(seed: int, seconds: float) -> None:
+    """They turn what moves, but it moves without them."""
+    rng = np.random.default_rng(seed)
+    place, speed, way = 0.0, 0.0, 1
+    duties, ways, ends, speeds = np.repeat(rng.integers(120, 255, ROWS // 60), 60), [], [], []
+    for duty in duties:
+        way = -1 if place > 20.0 else 1 if place < 0.0 else way
+        ways.append(0.5 * (way + 1))
+        ends.append((1.0 * (place < 0.0), 1.0 * (place > 20.0)))
+        speed += PERIOD / (PERIOD + seconds) * (duty / 2.55 * way - speed)
+        place += PERIOD * speed
+        speeds.append(speed)
+    low, high = np.array(ends).T
+    for beside in ({"dir": np.array(ways)}, {}):
+        table = make_table(pwm=1.0 * duties, end1=low, end2=high, **beside, speed=np.array(speeds))
+        assert join_half_bridge(table, Said()) is table
+
+
+@pytest.mark.parametrize("seed", range(4_360_100, 4_360_104))
+def test_pins_that_pulse_a_slow_motor_are_joined(seed: int) -> None:
+    """It goes on for long where both are off."""
+    rng = np.random.default_rng(seed)
+    pulses = np.repeat(rng.choice([-255.0, 0.0, 0.0, 255.0], ROWS), rng.integers(3, 12, ROWS))[:ROWS]
+    speed = [0.0]
+    for one in pulses[:-1]:
+        speed.append(speed[-1] + PERIOD / 1.0 * (100.0 * one / 255.0 - speed[-1]))
+    table = make_table(IN1=forth(pulses), IN2=forth(-pulses), speed=np.round(speed, 2))
+    assert np.array_equal(join_half_bridge(table, Said()).numbers("IN1 - IN2 (duty)"), pulses)
+
+
 def test_what_the_user_said_stays(tmp_path: Path) -> None:
     drive = excite(4_330_104)
     table = make_table(IN1=forth(drive), IN2=forth(-drive), rpm=run_motor(drive, 4_330_104))
