@@ -87,6 +87,8 @@ def fill_gaps(table: Table) -> Filled:
         row = np.arange(len(table))
         own = row[~empty]
         last = np.maximum(np.cumsum(~empty) - 1, 0)
+        if way and len(np.unique(np.asarray(table.column(name))[own])) < 2 and not _is_of_a_sender(table, name, empty):
+            continue  # a mark of one way, and nothing of the other
         if way:  # whose values may be words
             cells[name], told[name] = np.asarray(table.column(name))[own][last], ~empty
             continue
@@ -119,6 +121,12 @@ def mark_empty(cells: Cells) -> Bools:
         return np.isnan(array) if array.dtype.kind == "f" else np.zeros(len(array), np.bool_)
     spelt = [word.encode() for word in NO_VALUE] if array.dtype.kind == "S" else sorted(NO_VALUE)
     return np.asarray(np.logical_or.reduce([array == word for word in spelt]))
+
+
+def _is_of_a_sender(table: Table, name: str, empty: Bools) -> bool:
+    """Whether another column is empty, too, in most rows in which one is, (K,): they are of another sender."""
+    others = (mark_empty(table.column(one))[empty] for one in table.names if one != name)
+    return any(2 * np.count_nonzero(one) > len(one) for one in others)
 
 
 def _mark_blank(cells: Cells) -> Bools:

@@ -117,3 +117,14 @@ def test_a_direction_without_gaps_stays_as_it_is() -> None:
     table = made(t=[str(k) for k in range(60)], dir=["fwd", "none", "rev"] * 20, ticks=["", "3"] * 30)
     filled = fill_gaps(table)
     assert list(filled.table.column("dir")) == list(table.column("dir")) and list(filled.told) == ["ticks"]
+
+
+@pytest.mark.parametrize("word", ["R", "1", "reverse"])
+def test_a_mark_of_one_way_holds_for_its_own_rows(word: str) -> None:
+    """Nothing stands there for the other way; beside rows of another sender there was none."""
+    count = 60
+    way, times = [word if k // 10 % 2 else "" for k in range(count)], [str(k) for k in range(count)]
+    filled = fill_gaps(made(t=times, duty=["5"] * count, dir=way, ticks=times))
+    assert list(filled.table.column("dir")) == way and not filled.told
+    sparse = fill_gaps(made(t=times, duty=["5" if one else "" for one in way], dir=way, ticks=times))
+    assert set(map(str, sparse.table.column("dir"))) == {word} and set(sparse.told) == {"duty", "dir"}
