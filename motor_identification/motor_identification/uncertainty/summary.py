@@ -10,7 +10,7 @@ from motor_identification.estimation.parameter_space import Unknowns
 from motor_identification.estimation.problem import Problem
 from motor_identification.estimation.request import SearchReport
 from motor_identification.estimation.whitened_fit import WhitenedFit
-from motor_identification.recording import Floats
+from motor_identification.recording import Floats, have_steady_states
 from motor_identification.timing.held_until import describe_untold
 from motor_identification.uncertainty.absence import find_absent_effects
 from motor_identification.uncertainty.identifiability import find_confusable_effects, suggest_profile
@@ -130,20 +130,26 @@ def _own(effect: str) -> tuple[ParameterSpec, ...]:
 
 
 def find_bounds_hit(estimate: Estimate) -> dict[str, bool]:
-    """Find the parameters that ended on the edge of the search box."""
+    """Find the parameters that ended on the edge of the search box.
+
+    Of what steady states do not show, the box is next to nothing: its edge is as good a place as any.
+    """
     unknowns, theta = estimate.problem.unknowns, estimate.theta
+    steady = have_steady_states(estimate.problem.recordings)
     span = unknowns.high - unknowns.low
     at_wall = (theta - unknowns.low < ON_BOUND * span) | (unknowns.high - theta < ON_BOUND * span)
     middle = 0.5 * (unknowns.low + unknowns.high)
     return {
-        name: bool(at_wall[i]) and _is_a_wall(name, at_low=theta[i] < middle[i])
+        name: bool(at_wall[i]) and _is_a_wall(name, theta[i] < middle[i], steady)
         for i, name in enumerate(unknowns.names)
     }
 
 
-def _is_a_wall(name: str, at_low: bool) -> bool:
+def _is_a_wall(name: str, at_low: bool, steady: bool) -> bool:
     """A parameter at the value where its effect vanishes is an answer, not the edge of the search."""
     spec = SPEC_BY_NAME.get(name)
+    if spec is not None and spec.of_motion and steady:
+        return False
     return spec is None or not (at_low and spec.low == spec.off)
 
 

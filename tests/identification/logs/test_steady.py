@@ -1,12 +1,13 @@
 """Steady states become stairs, each compared at its end."""
 
-from math import tau
+from math import isnan, tau
 
 import numpy as np
 import pytest
 
 from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis.effect_test import is_static
+from motor_identification.identify import Request, identify
 from motor_identification.logs.form import CsvForm, Kind
 from motor_identification.logs.steady import HOLD, LONGEST, read_steady
 from motor_identification.recording import Floats, check, recording_of
@@ -56,3 +57,15 @@ def test_steady_states_tell_nothing_that_takes_time() -> None:
     assert names == {"coast_drive", "coulomb_friction", "dead_zone"} and all(map(is_static, names))
     assert "ka" in found.model.not_identifiable and "kv" not in found.model.not_identifiable
     assert not any(" s after" in one.where or " t " in one.where for one in found.findings)
+
+
+@pytest.mark.parametrize("seed", range(4_360_300, 4_360_306))
+def test_what_steady_states_do_not_show_is_at_no_limit(seed: int) -> None:
+    """A curve that bends for another reason pushes it to the end of a box that is next to nothing."""
+    voltage, scatter = np.linspace(0.0, 12.0, 41), np.random.default_rng(seed).normal(0.0, 9.5, 41)
+    driven = np.minimum(voltage, 9.3) - 0.8
+    form = CsvForm(None, "u", "y", Kind.SPEED, "rpm")
+    values = np.where(driven > 0.0, 190.0 * driven + scatter, 0.0)
+    steady = read_steady(form, Info(max_voltage=12.0), voltage, np.round(values, 1), [slice(0, 41)])
+    fit = identify([check(recording_of(steady.samples[0], steady.info, "curve"))], Request(("coulomb_friction",)))
+    assert isnan(fit.standard_errors["ka"]) and not fit.on_bound["ka"]
