@@ -65,6 +65,8 @@ FED_BACK = (
     "positions, in which their rounding is not (assumed; otherwise: --speed-window)."
 )
 TIMED = "Speeds in {} are one angle over whole ticks of a timer each: they were timed between edges, not counted."
+FLANKS = (2, 4)  # times as many as the rising ones of one channel: so are edges most often said wrong
+OR_EDGES = "Or there are {:.4g} counts per revolution, and not {} (--edges-per-revolution): the steps are those, too."
 STEPPED = (
     "Caution: speeds are multiples of {:.4g} {}, {:.3g} counts of {} per revolution within a row: there are {:.4g} "
     "(--edges-per-revolution), or a speed is counted for less than a row (--speed-window {:.3g})."
@@ -160,8 +162,10 @@ def _find_shorter_window(form: CsvForm, values: Floats, edges: int, row: float) 
     ratio = find_step_ratio(values, count)
     if not 0.0 < ratio < _FAR or abs(ratio * count / (printed_digit(values) or np.inf) - 1.0) < LAST_DIGIT:
         return 1.0, []
-    if form.unit == "count/s" or not may_be_other_edges(ratio):
+    if form.unit == "count/s" or not may_be_other_edges(ratio, edges):
         return ratio, []
+    if round(ratio) not in FLANKS:
+        return ratio, [OR_EDGES.format(edges / round(ratio), edges)]
     return 1.0, [STEPPED.format(ratio * count, form.unit, ratio, edges, edges / ratio, row / ratio)]
 
 

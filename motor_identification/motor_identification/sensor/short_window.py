@@ -17,8 +17,7 @@ from motor_identification.sensor.value_lattice import CHANCE, FINEST, LEAST_PLAC
 LEAST_RATIO = 1.4
 MOST_VALUES = 1000  # that are looked at, at random
 NEAR, MOSTLY = 0.1, 0.9  # of a step, so near to whole ones most values are
-BOTH = (2.0, 4.0)  # times as many flanks as one channel's rising ones: a step so large may be a turn's other number,
-AS_BOTH = 0.03  # within so much
+AS_WHOLE = 0.03  # within so much a step may be that of a turn with a whole part of the edges
 
 
 def find_step_ratio(values: Floats, count: float) -> float:
@@ -39,9 +38,13 @@ def find_step_ratio(values: Floats, count: float) -> float:
     return -below / count if scatter < MOST_SCATTER and -below >= LEAST_RATIO * count else 0.0
 
 
-def may_be_other_edges(ratio: float) -> bool:
-    """Whether a step so many times one count may be that of a turn with half, or a quarter, of the edges."""
-    return any(abs(ratio / both - 1.0) < AS_BOTH for both in BOTH)
+def may_be_other_edges(ratio: float, edges: int) -> bool:
+    """Whether a step so many times one count may be that of a turn with a whole part of the edges that were said.
+
+    Half or a quarter of them is one channel's rising ones.
+    """
+    parts = round(ratio)
+    return parts > 1 and edges % parts == 0 and abs(ratio / parts - 1.0) < AS_WHOLE
 
 
 def _are_near(sizes: Floats, step: float) -> bool:

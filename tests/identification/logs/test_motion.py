@@ -277,3 +277,5 @@ def test_speeds_of_said_counts_were_counted_for_as_long_as_their_steps_say(
     told = " ".join(motion.findings)
     assert ("one count within that is the step of the values" in told) is (window < 0.02)
     assert ("2 counts of 1320 per revolution within a row: there are 660" in told) is (unit == "rad/s" and ratio == 2.0)
+    other = unit == "rad/s" and ratio == 5.0 and said is None
+    assert ("Or there are 264 counts per revolution, and not 1320 (--edges-per-revolution)" in told) is other

@@ -60,6 +60,19 @@ def test_a_few_rows_that_were_held_up_do_not_hide_it() -> None:
     assert find_step_ratio(np.array(MEASURED) + 40.0 * np.sin(np.arange(len(MEASURED))), 1.0 / 0.050446) == 0.0
 
 
-@pytest.mark.parametrize(("ratio", "may"), [(2.0, True), (4.1, True), (2.2, False), (3.0, False), (5.03, False)])
-def test_twice_and_four_times_a_count_may_be_another_number_of_edges(ratio: float, may: bool) -> None:
-    assert may_be_other_edges(ratio) is may
+@pytest.mark.parametrize(
+    ("ratio", "edges", "may"),
+    [
+        (2.0, 96, True),
+        (4.1, 96, True),
+        (2.2, 96, False),
+        (3.0, 96, True),
+        (3.0, 100, False),  # of which no third is whole
+        (5.03, 1320, True),
+        (5.03, 96, False),
+        (1.4, 96, False),
+    ],
+)
+def test_a_whole_number_of_counts_may_be_one_of_another_number_of_edges(ratio: float, edges: int, may: bool) -> None:
+    """Edges said 3 or 5 times too many made a window of a third or a fifth of a row, without a word."""
+    assert may_be_other_edges(ratio, edges) is may
