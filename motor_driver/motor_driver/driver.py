@@ -179,7 +179,8 @@ class Driver:
             self._halt(f"no telemetry from {session.port} for {self.config.silence * 1e3:.0f} ms")
         elif session:
             self._check_lateness(session, now)
-            if session.switch.unheard(now, self.config.confirmation * 1e9):
+            longest = self.config.confirmation * 1e9
+            if session.switch.unheard(now, longest, session.telling(now, longest)):
                 self._halt((OTHERS if session.disturbed else DEAF).format(session.port))
         (stop, motor), self._stop, self._by_motor = (self._stop, self._by_motor), "", False
         wish = wish and not stop

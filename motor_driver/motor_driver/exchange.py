@@ -47,6 +47,7 @@ class Exchange:
         self._sent: dict[int, int] = {}
         self._token, self._latest = 0, -PING_EVERY
         self._answered = 0  # the token of the newest answer
+        self.answered_at: int | None = None  # [ns] when that was read
 
     @property
     def late(self) -> bool:
@@ -75,7 +76,7 @@ class Exchange:
     def hear_pong(self, pong: Pong, clock: BoardClock, host: int) -> None:
         """Take an answer read at `host`."""
         sent = self._sent.pop(pong.token, None)
-        self._answered = pong.token
+        self._answered, self.answered_at = pong.token, host
         self.look(host)
         self.board = BoardCounters(pong.bad_frames, pong.dropped_samples)
         if sent is None:

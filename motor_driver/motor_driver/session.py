@@ -50,6 +50,14 @@ class Session:
         """Whether somebody else has told the board something, and this driver has not made that good yet."""
         return self.agreement is not None and self.agreement.disturbed
 
+    def telling(self, now: int, longest: float) -> float:
+        """Find how long [ns] the board may take to say that it does as told, which is twice the `longest` [ns] to obey.
+
+        For an off of the switch's may be under way, or a frame may be lost. 0: it has answered nothing for as long.
+        """
+        at = self.exchange.answered_at if self.exchange else None
+        return 2.0 * longest if at is not None and now - at <= longest else 0.0
+
     def begin(self, exchange: Exchange, now: int) -> None:
         """The board runs from now on."""
         self.exchange, self.heard, self.silent = exchange, now, False

@@ -65,10 +65,10 @@ class Agreement:
     def asks(self, now: int, wish: bool, took: int = 0) -> list[FromHost]:
         """What to tell the board again at `now`: before it is switched on, or where somebody has told it otherwise.
 
-        The latest answer `took` so long [ns]: what is under way is not sent again.
+        The latest answer `took` so long [ns]: what is under way is not sent again, and what is lost is, soon after.
         """
         sure = self.named is not None or not (wish or self.disturbed)
-        if sure or (self._latest is not None and now - self._latest < max(self._every, 2 * took)):
+        if sure or (self._latest is not None and now - self._latest < self._every + took):
             return []
         self._latest = now
         self._sent += len(self._told)

@@ -91,13 +91,15 @@ class Switch:
         self._named = named.latch
         return Enable(1, named.boot, named.latch)
 
-    def unheard(self, now: int, longest: float) -> bool:
+    def unheard(self, now: int, longest: float, telling: float = 0.0) -> bool:
         """Whether at `now` the board has not switched on for more than `longest` [ns], however often it was asked.
 
-        The same holds of one that is not to be switched on yet, however often it was to be.
+        The same holds of one that is not to be switched on yet, however often it was to be: for `telling` [ns], if that
+        is longer.
         """
         turning_on = self.output is Output.TURNING_ON
-        return turning_on and self._enables >= ASKED and now - self._since > longest
+        most = longest if self._told else max(longest, telling)
+        return turning_on and self._enables >= ASKED and now - self._since > most
 
     def _go(self, output: Output) -> None:
         self.output, self._asked, self._named, self._enables, self._told = output, None, None, 0, False

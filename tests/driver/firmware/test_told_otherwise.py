@@ -12,10 +12,13 @@ from electrical import ELECTRIC, LUMPED
 from tiers import mark_slow
 
 from motor_board.build import FirmwareConfig
+from motor_board.emulation.faults import Faults
+from motor_board.emulation.serial_line import SerialLine
 from motor_board.emulation.wiring import Wiring
 from motor_driver.config import Config
 from motor_driver.current_limits import CurrentLimits
 from motor_driver.frames.codes import Decay, Pwm
+from motor_driver.frames.from_board import Hello
 from motor_driver.frames.from_host import Command, Configure, Enable, FromHost, Ping, Protect, Setup
 from motor_driver.protocol import pack, unstuff
 from motor_model.parameters import Parameters
@@ -164,3 +167,41 @@ def test_a_board_with_silent_pwm_is_known_again_after_a_reset(make_rig: MakeRig)
     rig.run(600)
     assert rig.stops[-1].startswith("the board was reset") and rig.enable() == ""
     rig.until(lambda: rig.pins != 0.0, 60)
+
+
+class Slow(SerialLine):
+    """Bytes that all come equally late, and of which some hellos are lost."""
+
+    def __init__(self, delay: float) -> None:
+        super().__init__(0)
+        self._delay = round(delay * 1e6)  # [ns]
+        self.lost: set[int] = set()  # of the next hellos, from 1 on
+        self._hellos, self._begun = 0, b""
+
+    def send(self, data: bytes, faults: Faults, now: int) -> None:
+        *frames, self._begun = (self._begun + data).split(b"\0")
+        for frame in frames:
+            plain = unstuff(frame) if frame else None
+            self._hellos += bool(self.lost) and plain is not None and plain[1] == Hello.TYPE
+            if plain is None or plain[1] != Hello.TYPE or self._hellos not in self.lost:
+                self._late.append((now + self._delay, frame + b"\0"))
+
+
+@pytest.mark.parametrize(("delay", "lost"), [(30.0, {2}), (44.0, {2}), (30.0, {1, 3}), (30.0, {2, 3})], ids=str)
+def test_on_a_slow_line_that_loses_an_answer_an_enable_soon_after_an_off_is_no_stop(
+    make_rig: MakeRig, delay: float, lost: set[int]
+) -> None:
+    """The first time that the board is told, the switch's off is still under way: of 25 enables 4 were stops."""
+    rig = make_rig()
+    rig._in, rig._out = Slow(delay), (out := Slow(delay))
+    rig.run(20)
+    rig.plug()
+    rig.voltage = 1.0
+    rig.until(lambda: rig.pins > 0.9, 2000)
+    rig.run(300)
+    assert rig.enable(False) == ""
+    rig.run(100)
+    out.lost = lost
+    assert rig.pins == 0.0 and rig.enable() == ""
+    rig.until(lambda: rig.pins > 0.9, 600)
+    assert rig.stops == []

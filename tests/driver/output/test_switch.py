@@ -75,6 +75,19 @@ def test_what_takes_too_long_before_an_enable_is_a_stop_too_and_an_enable_has_it
     assert switch.unheard(512 * ms, 200.0 * ms)
 
 
+@pytest.mark.parametrize(("at", "late"), [(400, False), (401, True)])
+def test_a_board_that_has_to_be_told_first_may_take_longer_for_that(at: int, late: bool) -> None:
+    switch, ms = Switch(), 1_000_000
+    for k in range(ASKED):
+        switch.asks(True, None, k * 30 * ms)
+    assert switch.unheard(at * ms, 200.0 * ms, 400.0 * ms) is late
+    switch.asks(True, TELEMETRY, 410 * ms)
+    for k in range(1, ASKED):
+        assert not switch.unheard((410 + k * 20) * ms, 200.0 * ms, 400.0 * ms)
+        switch.asks(True, TELEMETRY, (410 + k * 20) * ms)
+    assert switch.unheard(611 * ms, 200.0 * ms, 400.0 * ms)
+
+
 def test_the_users_off_is_asked_for_at_once() -> None:
     switch = turned_on()
     assert switch.asks(False, TELEMETRY, 1) == Enable(0) and not switch.listening
