@@ -64,6 +64,16 @@ def test_the_number_is_that_of_the_ports() -> None:
     assert find_number(3, [half]) == 0
 
 
+@pytest.mark.parametrize(("number", "further"), [(FOUND, 1), (FOUND + 1, 1), (1, 2), (FOUND + 1, 5)])
+def test_a_process_whose_port_for_messages_was_taken_has_the_number_of_the_other(number: int, further: int) -> None:
+    """Beside a stranger's socket at port 125 of a domain the 63rd process's were 124 and 127: it started."""
+    (discovery, _), *_ = process(3, number)
+    (_, (messages, _)) = process(3, number + further)
+    sockets = table((discovery, "7"), (messages, "7"), (45000, "7"), *process(3, number - 1 or 70))
+    assert find_number(3, [sockets], ["7"]) == number
+    assert find_number(3, [table((messages, "7"), (discovery - 250, "7"))], ["7"]) == 0
+
+
 def test_the_next_domains_processes_are_none_of_this_one_but_a_process_may_have_run_into_their_ports() -> None:
     both = table(*process(4, 1, "1"), *process(3, MOST + 10, "2"))
     assert find_number(3, [both]) == 0 and find_number(3, [both], ["2"]) == MOST + 10
