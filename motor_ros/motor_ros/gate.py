@@ -104,7 +104,8 @@ class Gate:
     command: float = 0.0  # [V]
     received: int | None = None  # [ns]
     sender: Sender | None = None  # of that command
-    aside: Sender | None = None  # what tells most of those that seemed another's, until the sender is heard again
+    aside: Sender | None = None  # what tells most of those of its name that seemed another's, until it is heard again
+    beside: Sender | None = None  # likewise the latest of another name
     rival: Sender | None = None  # another sender's latest command that was left aside while both sent
     rival_at: int = 0  # [ns] when the two had both been heard, or one of them was left aside since
     mixed: bool = False  # since both are heard, they have one name and close numbers
@@ -138,7 +139,7 @@ class Gate:
         unheard = holder is not None and self._goes_on_unheard(holder, ours, number, now)
         if holder is not None and unheard and not ours:
             return replace(self.come_up(holder.at), sender=None, away=True).take(*what)
-        told = self._tell_senders(number, now) if ours else replace(self, aside=None)
+        told = self._tell_senders(number, now) if ours else replace(self, aside=None, beside=None)
         mixed = told.mixed and told.conflict(now)
         sender = holder.after(number, now) if holder is not None and ours else Sender(name, number, now)
         first = self.first if ours and self.first is not None else sender
@@ -178,8 +179,10 @@ class Gate:
 
     def _leave_aside(self, message: Sender) -> "Gate":
         """A message that does not seem the sender's is left aside; as long as that goes on, the two are in conflict."""
-        told = max(filter(None, (self.aside, message)), key=self._tells)
-        return replace(self, aside=told, rival_at=message.at if self.conflict(message.at) else self.rival_at)
+        seen = replace(self, rival_at=message.at if self.conflict(message.at) else self.rival_at)
+        if self.sender is None or message.name != self.sender.name:  # it does not hide who has the sender's name
+            return replace(seen, beside=message)
+        return replace(seen, aside=max(filter(None, (self.aside, message)), key=self._tells))
 
     def _tells(self, message: Sender) -> tuple[bool, bool, bool, int, int]:
         """Rank what is left aside: what the sender has not sent, then what may be taken for its own, then the latest.
@@ -199,12 +202,15 @@ class Gate:
 
     def _tell_senders(self, number: int | None, now: int) -> "Gate":
         """The sender is heard again: what was left aside was another's, unless it was sent between its two commands."""
-        holder, aside = self.sender, self.aside
-        if holder is None or aside is None or now - aside.at > HOLD or holder.sent_between(aside, number):
-            return replace(self, aside=None)
-        again = self.conflict(now)
-        mixed = (self._is_close(aside) and (aside.moves or again)) or (self.mixed and again)
-        return replace(self, aside=None, rival=aside, rival_at=now, mixed=mixed)
+        holder, heard = self.sender, replace(self, aside=None, beside=None)
+        seen = [one for one in (self.aside, self.beside) if one is not None and now - one.at <= HOLD]
+        others = [one for one in seen if holder is not None and not holder.sent_between(one, number)]
+        if holder is None or not others:
+            return heard
+        other, again = others[0], self.conflict(now)
+        mixed = (self._is_close(other) and (other.moves or again)) or (self.mixed and again)
+        rival = self.rival if mixed and other.name != holder.name else other  # the two that are mixed are told
+        return replace(heard, rival=rival, rival_at=now, mixed=mixed)
 
     def _rivals_name(self, name: str) -> bool:
         return self.rival is not None and self.rival.name == name

@@ -552,6 +552,20 @@ def test_of_two_with_one_name_that_cannot_be_told_apart_none_drives(ahead: int, 
         assert plant.take(0.0, end, "", number).take(6.0, end + 10 * MS, "", number + 1).voltage(end + 10 * MS) == 6.0
 
 
+@pytest.mark.parametrize("ahead", [1, 8])
+@pytest.mark.parametrize("every", [3, 5, 15])
+def test_a_third_sender_does_not_hide_that_two_have_one_name(ahead: int, every: int) -> None:
+    """Beside it the first drove on, or for a command the second, and it was the third one's name that was said."""
+    first = [(T0 + 20 * k * MS, 6.0, 1 + k, "") for k in range(200)]
+    third = [(T0 + (200 + every * k) * MS + 7, 3.0, 1 + k, "other") for k in range(3_800 // every)]
+    second = [(at + 4 * MS, -6.0, number + ahead, "") for at, _, number, _ in first[25:]]
+    plant, late, now = gate(), set(), T0
+    for now, voltage, number, name in sorted(first + third + second):
+        plant = plant.take(voltage, now, name, number)
+        late |= {plant.voltage(now)} if now > T0 + 600 * MS else set()
+    assert late == {0.0} and "all with frame_id ''" in plant.problem(now)
+
+
 @pytest.mark.parametrize("ahead", [2, 5])
 def test_who_comes_a_little_ahead_under_the_first_ones_name_does_not_take_over(ahead: int) -> None:
     """At an even pace: the first one's next numbers are those that were missing before it."""
