@@ -38,6 +38,14 @@ def test_long_pushes_both_ways_are_one_and_short_ones_may_turn_a_motor_within_a_
     assert stopped is None or 6.39 <= stopped <= 6.6
 
 
+@pytest.mark.parametrize(("back", "latest"), [(0.01, 6.7), (0.1, 7.5), (0.5, 13.0), (1.4, 25.0), (1.5, None)])
+def test_a_short_push_counts_but_for_what_is_driven_back(back: float, latest: float | None) -> None:
+    """1.5 s one way and two samples the other let a blocked motor heat for ever. As long either way may turn it."""
+    stopped = stopped_after(lambda time: -0.49 if time % (1.5 + back) >= 1.5 else 0.49)
+    assert (stopped is None) is (latest is None)
+    assert stopped is None or latest is None or 6.4 <= stopped <= latest
+
+
 @pytest.mark.parametrize(("share", "stops"), [(DRIVEN - 0.001, False), (DRIVEN + 0.001, True)])
 def test_what_turns_any_motor_counts_and_less_does_not(share: float, stops: bool) -> None:
     assert (stopped_after(lambda time: share) is not None) is stops
@@ -57,7 +65,10 @@ def test_times_add_up_to_the_nanosecond() -> None:
     lasting = Lasting()
     for direction, took in ((1, 5), (1, 7), (0, 4), (1, 2), (-1, 9), (-1, 3)):
         lasting = lasting.see(direction, took, False, STALL)
-    assert lasting == Lasting(-1, 3, 0)  # the push before was short
+    assert lasting == Lasting(-1, 3, 0, 2)  # the push before was short: of its 5, 3 were driven back
+    assert lasting.see(1, 9, False, STALL) == Lasting(1, 2, 0, 3) and lasting.time == 5
+    assert lasting.see(-1, 4, False, STALL) == Lasting(-1, 7, 0, 0)
+    assert lasting.see(0, 4, False, STALL) == Lasting(-1, 0, 0, 1) and lasting.see(0, 5, False, STALL).time == 0
     lasting = Lasting(1, round(LONG * STALL * S), 5).see(-1, 9, False, STALL)
     assert lasting == Lasting(-1, 0, round(LONG * STALL * S) + 5)
     assert lasting.see(0, 7, False, STALL).time == lasting.time - 7
