@@ -78,6 +78,7 @@ class Case:
     supply: float  # [V]
     torque: float  # [V] RMS
     logger: Logger = Logger()
+    least: float = 0.0  # [s] that the log lasts at least
 
     @property
     def lag(self) -> float:
@@ -152,7 +153,7 @@ def command(case: Case, time: Floats) -> Floats:
 
 def span_of(case: Case) -> float:
     """Say how long the log is [s]."""
-    return float(np.clip(60.0 * case.lag, 4.0, 30.0))
+    return max(float(np.clip(60.0 * case.lag, 4.0, 30.0)), case.least)
 
 
 def run(case: Case) -> tuple[Floats, Floats, Floats, Floats]:
