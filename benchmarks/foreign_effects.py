@@ -2,8 +2,8 @@
 
 The motors, sensors and excitations of `foreign_logs.py` (a single step is left out, which tells next to nothing), each
 with one of the effects that are rarer or harder to see than those of that page, or with one that is outside the table;
-friction is beside it in four of five. The tests' independent plant moves; `import_log` is told nothing. No winding warms
-up within seconds: of one that does the log lasts for twelve at least.
+friction is beside it in four of five. The tests' independent plant moves; `import_log` is told nothing. No winding
+warms up within seconds: of one that does the log lasts for twelve at least.
 """
 
 from dataclasses import replace
