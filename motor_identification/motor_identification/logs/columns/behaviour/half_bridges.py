@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from motor_identification.logs.columns.drive import drives
 from motor_identification.logs.columns.heading import Heading, read_heading
-from motor_identification.logs.columns.motion.direction import TOGETHER
+from motor_identification.logs.columns.motion.direction import TOGETHER, turns_back
 from motor_identification.logs.columns.roles.candidates import list_readable
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.columns.vocabulary import DIRECTIONS, MOVES, Quantity, words_of
@@ -26,7 +26,6 @@ SPANS = (1, 4, 16)  # rows whose means are looked at
 SURE = 5.0  # standard errors of what a pin does to the motion
 EXPLAINED = 0.2  # of what a motion's own speed before leaves open, that its pins explain
 ALIKE = 0.2  # of what one pin does, that the other one does at least: the same motor goes the other way
-BOTH_WAYS = 0.05  # of the largest speed, that a motor has the other way
 # Times as fast where neither of them is on as where one is: no pins. Measured: 2.0 and more of the switches at the ends
 # of a slide that goes to and fro, 1.2 and less of the pins of motors of 80 ms to 2 s in pulses of 30 to 120 ms.
 RUNS_ON = 1.5
@@ -46,8 +45,7 @@ def join_half_bridge(table: Table, said: Said) -> Table:
     A bridge gives a motor the difference of what its halves get. So two columns are its halves where one of them is 0,
     or full, in every row, and the motion is pushed one way by one and the other way by the other: by what was, the
     speed of the next rows rises with one pin and falls with the other. Of pins of a bridge by name it is enough that
-    they are never on together. Beside a duty without a sign such pins, of two
-    levels, are its direction.
+    they are never on together. Beside a duty without a sign such pins, of two levels, are its direction.
 
     Args:
         table: the log.
@@ -180,9 +178,8 @@ def _sign(speed: Floats, first: Floats, second: Floats, unsigned: bool) -> int:
     begin = int(np.argmax(first != second))
     rows = slice(begin, begin + MOST_ROWS)
     speed, first, second = speed[rows], first[rows], second[rows]
-    forth, back = float(np.max(speed)), -float(np.min(speed))
-    both = min(forth, back) > BOTH_WAYS * max(forth, back)
-    if not both and not (unsigned and back <= 0.0):
+    both = turns_back(speed)
+    if not both and not (unsigned and float(np.min(speed)) >= 0.0):
         return 0
     signs = {_sign_of_rows(*(_means(column, span) for column in (speed, first, second))) for span in SPANS} - {0}
     if len(signs) != 1:

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from motor_identification.logs.columns.drive import are_pulses
 from motor_identification.logs.columns.heading import Heading
+from motor_identification.logs.columns.motion.direction import turns_back
 from motor_identification.logs.columns.roles.candidates import list_readable
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.columns.vocabulary import MOVES, Quantity
@@ -19,7 +20,6 @@ NEAR = 0.05  # of how far it is to full voltage: within it controllers give none
 STANDS = 0.01  # of the largest speed
 MOSTLY = 0.5  # of the rows in which it stands
 SLOWER = 0.5  # of the mean speed elsewhere: a motor that runs out
-BOTH_WAYS = 0.05  # of the largest speed, that a motor has the other way
 READ = (
     "Pulses: {0} is read as a share of the supply from {1:g} µs, at which the motor stands, to {2:g} µs (assumed; "
     "otherwise: --full-duty, --voltage-scale)."
@@ -72,7 +72,7 @@ def _find_neutral(pulses: Floats, speed: Floats) -> float:
     """[µs] the pulse at which a motor stands, of pulses [µs] and speeds, shape (K,); 0 where it cannot be told."""
     size = np.abs(speed)
     stands = size <= STANDS * float(np.max(size))
-    both = min(float(np.max(speed)), -float(np.min(speed))) > BOTH_WAYS * float(np.max(size))
+    both = turns_back(speed)
     for neutral, full in NEUTRALS.items():
         there = np.abs(pulses - neutral) <= NEAR * full
         idle = there | (pulses == 0.0)

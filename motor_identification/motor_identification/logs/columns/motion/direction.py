@@ -24,6 +24,7 @@ TWO_WAYS = frozenset(
     [("fwd", "rev"), ("forward", "reverse"), ("forward", "backward"), ("fwd", "bwd"), ("rpwm", "lpwm"), ("cw", "ccw")]
 )
 TOGETHER = 0.01  # of the rows
+BOTH_WAYS = 0.05  # of the largest speed, that a motor has the other way
 STANDS = words_of("stop stopped brake coast idle halt none off n neutral")
 NEITHER = STANDS | words_of("0 0.0")  # 0 is one beside 1 and -1
 
@@ -137,3 +138,9 @@ def _take_turns(table: Table, one: str, other: str) -> bool:
     first, second = table.numbers(one), table.numbers(other)
     never_below = bool(np.min(first) >= 0.0 and np.min(second) >= 0.0)
     return never_below and bool(np.any(first) and np.any(second)) and float(np.mean(first * second != 0.0)) < TOGETHER
+
+
+def turns_back(speed: Floats) -> bool:
+    """Whether a motor goes both ways, by its speed (K,) in any unit."""
+    forth, back = float(np.max(speed)), -float(np.min(speed))
+    return min(forth, back) > BOTH_WAYS * max(forth, back)

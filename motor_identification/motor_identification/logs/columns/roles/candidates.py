@@ -7,10 +7,10 @@ import numpy as np
 
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.vocabulary import Quantity
+from motor_identification.logs.csv.sparse import LOOKED_AT
 from motor_identification.logs.csv.table import Table
 from motor_model.errors import RecordingError
 
-LOOKED_AT = 200  # cells that tell quickly that a column holds words
 MOSTLY = 0.5  # of its cells are numbers: else it holds notes beside the table, whatever its name
 
 

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from log_columns import DRIVE, FOLLOWS, TIME
 
-from motor_identification.logs.columns.roles.candidates import LOOKED_AT, list_readable
+from motor_identification.logs.columns.roles.candidates import list_readable
 from motor_identification.logs.columns.roles.roles import find_roles
 from motor_identification.logs.columns.said import Pair, Said
+from motor_identification.logs.csv.sparse import LOOKED_AT
 from motor_identification.logs.csv.table import Table
 from motor_model.errors import RecordingError
 
