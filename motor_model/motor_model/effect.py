@@ -11,7 +11,7 @@ class Extent:
     voltage: float  # [V] the largest
     speed: float  # [rad/s] the largest
     duration: float  # [s] the longest
-    sample: float = 0.005  # [s] the shortest sample period
+    sample: float = 0.005  # [s] the shortest sample period; of steady states, the time that each is the mean over
     cycles: float = 48.0  # [1/rev of the encoder's shaft] of the finest ripple that can be told from its mirror image
     steady: bool = False  # nothing but steady states, in which no motion is on its way
 

@@ -86,7 +86,7 @@ class Problem:
 
     @property
     def sample_period(self) -> float:
-        """[s] the shortest of all recordings."""
+        """[s] the shortest of all recordings; of nothing but steady states, the time that each is the mean over."""
         return self.unknowns.extent.sample
 
     def coarsen(self, samples: float) -> "Problem":
