@@ -286,6 +286,9 @@ MOST_OF_ONE_RESPONSE = 1
 MISCOUNTED_GAP = 3.0
 # How often a selection beside a random torque goes on where elimination changed it. Measured: once is enough.
 ROUNDS = 2
+# How often a model beside a random torque is fitted again by the errors that it leaves itself, and by how much log
+# likelihood each time has to gain. Measured: 70, 20, 5, 2 along the ridge of a delay and an inductance; else below 1.
+SETTLING_ROUNDS, SETTLED_LIKELIHOOD = 6, 1.0
 # Effects that are tried together with any other, where none alone is a finding. 3 × 17 fits take half a minute.
 PAIR_PARTNERS = 3
 # Of the excess over the floor, what an effect that others come with takes away at least, however unlikely it is alone.

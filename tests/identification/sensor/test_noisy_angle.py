@@ -55,6 +55,21 @@ def test_a_shaft_that_trembles_on_an_edge_has_none() -> None:
     assert find_angle_noise(type(trembling)(**{**trembling.__dict__, "edge_count": many})) > 2.5
 
 
+@pytest.mark.parametrize("noise", [0.0, 3.0])
+def test_a_motor_that_its_voltage_turns_back_every_few_rows_has_none_by_that(noise: float) -> None:
+    """Of one driven to and fro within rows of jittering stamps, its own motion was taken for noise of 1,600 counts."""
+    random = np.random.default_rng(5)
+    counted = as_counts(recorded(sample_rate=200.0)).at_rows(np.arange(1000))
+    volts = 12.0 * np.repeat(random.choice([-1.0, 1.0], 500), 2)
+    late = volts + np.append(0.0, volts[:-1])  # travels of a quick motor, by what held before too
+    jitter = 1.0 + 0.1 * random.standard_normal(1000)
+    stands = np.arange(1000) >= 700
+    travel = np.where(stands, 0.0, 50.0 * late * jitter)
+    count = np.rint(np.cumsum(travel) + noise * random.standard_normal(1000)).astype(np.int64)
+    driven = replace(counted, voltage=np.where(stands, 0.0, volts), edge_count=count)
+    assert (find_angle_noise(driven) > 0.0) is (noise > 0.0)
+
+
 def potentiometer(told: float) -> Recording:
     """Angles of a motor that travels so many times the noise of a row's travel in a row."""
     counted = as_counts(recorded(edges=960, sample_rate=200.0))

@@ -86,6 +86,24 @@ class Selection:
 def begin_beside_torque(
     model: Model, hold_out: HoldOut, workers: int, steps: tuple[SelectionStep, ...] = ()
 ) -> Selection:
+    """Correct directions by a model, and fit, learn and judge it beside a random torque until nothing is gained.
+
+    The errors that a fit is whitened by are those of the model before it: of what was fitted without a torque, they may
+    be of a motor that is not there yet. Measured: a delay and an inductance that do each other's work went on by 100 of
+    log likelihood in three fits, and any effect that was tried beside the first, of no size, was likelier by 92.
+    """
+    begun = _begin_once_beside_torque(model, hold_out, workers, steps)
+    for _ in range(thresholds.SETTLING_ROUNDS):
+        again = _begin_once_beside_torque(begun.model, begun.hold_out, workers, steps)
+        if again.model.likelihood - begun.model.likelihood < thresholds.SETTLED_LIKELIHOOD:
+            break
+        begun = again
+    return begun
+
+
+def _begin_once_beside_torque(
+    model: Model, hold_out: HoldOut, workers: int, steps: tuple[SelectionStep, ...]
+) -> Selection:
     """Correct directions by a model, and fit, learn and judge it again beside a random torque.
 
     Nothing is left out: the density of what is left has wide tails.

@@ -11,7 +11,13 @@ from motor_identification.diagnosis.candidate_fit import validate_model
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.selection import selection
-from motor_identification.diagnosis.selection.selection import SelectionStep, begin_selection, may_be_miscounted
+from motor_identification.diagnosis.selection.selection import (
+    Selection,
+    SelectionStep,
+    begin_beside_torque,
+    begin_selection,
+    may_be_miscounted,
+)
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.validation.hold_out import HoldOut
 
@@ -51,6 +57,35 @@ def test_a_model_without_miscounts_is_judged_on_the_motion_that_candidates_will_
     begun = begin_selection(estimate, hold_out, 1)
     model, by = judged[-1]
     assert begun.model is model and begun.hold_out is by and len(judged) == 2
+
+
+@pytest.mark.parametrize(
+    ("gains", "kept"),
+    [
+        ((BELOW,), 0),
+        ((ABOVE, BELOW), 1),
+        ((70.0, 20.0, ABOVE, -5.0), 3),
+        ((ABOVE,) * 9, thresholds.SETTLING_ROUNDS),
+    ],
+)
+def test_a_model_beside_a_torque_is_fitted_until_that_gains_nothing(
+    gains: tuple[float, ...], kept: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Else what is tried beside it is credited with the rest of the way: any effect of no size was, by 92."""
+    estimate, hold_out = fitted(ks=0.4)
+    plain = validate_model(hold_out, estimate)
+    likelihoods = iter(np.cumsum([0.0, *(gain * thresholds.SETTLED_LIKELIHOOD for gain in gains)]))
+    fits: list[Selection] = []
+
+    def begin(model: Model, by: HoldOut, workers: int, steps: tuple[SelectionStep, ...]) -> Selection:
+        assert model is (fits[-1].model if fits else plain) and by is hold_out and (workers, steps) == (3, ())
+        score = replace(model.score, likelihood=float(next(likelihoods)))
+        fits.append(Selection(steps, replace(model, score=score), by, workers))
+        return fits[-1]
+
+    monkeypatch.setattr(selection, "_begin_once_beside_torque", begin)
+    assert begin_beside_torque(plain, hold_out, 3) is fits[kept]
+    assert len(fits) == 1 + min(kept + 1, thresholds.SETTLING_ROUNDS)
 
 
 @pytest.mark.parametrize("times", [BELOW, ABOVE])
