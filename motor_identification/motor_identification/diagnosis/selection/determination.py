@@ -173,6 +173,11 @@ def find_limits_hit(model: Model) -> tuple[str, ...]:
     return tuple(name for name, hit in find_bounds_hit(model.estimate).items() if hit and not _is_physical(name))
 
 
+def is_of_no_motor(model: Model) -> bool:
+    """Decide whether a model's kv ended at a limit of the search: no motor moves like that by such voltages."""
+    return "kv" in find_limits_hit(model)
+
+
 def _is_physical(name: str) -> bool:
     """Whether a search ends where physics does, such as at a bridge that coasts all the time, and not far before."""
     spec = SPEC_BY_NAME.get(name)

@@ -23,6 +23,7 @@ from motor_identification.diagnosis.selection.determination import (
     drop_undetermined,
     drop_undetermined_at_once,
     find_limits_hit,
+    is_of_no_motor,
     find_undetermined,
     is_needed,
     is_steady_beside_torque,
@@ -430,6 +431,9 @@ def test_a_limit_of_the_search_is_no_value_but_one_of_physics_is(effect: str, at
     theta[place] = more.unknowns.high[place]
     model = cast(Model, SimpleNamespace(estimate=Estimate(more, theta), effects=(effect,)))
     assert find_limits_hit(model) == ((name,) if at_limit else ())
+    assert not is_of_no_motor(model)
+    theta[place], theta[more.unknowns.names.index("kv")] = 0.0, more.unknowns.high[more.unknowns.names.index("kv")]
+    assert is_of_no_motor(model) is True
 
 
 @pytest.mark.parametrize("at_limit", [True, False])

@@ -227,6 +227,7 @@ def test_a_beginning_that_comes_to_what_was_found_is_gone_on_from_again_where_th
         return begun if known else selection
 
     complete = {id(ended[0].model): before, id(begun.model): now, id(ended[1].model): now}
+    monkeypatch.setattr(module, "is_of_no_motor", lambda model: False)
     monkeypatch.setattr(Model, "complete", property(lambda model: complete.get(id(model), True)))
     monkeypatch.setattr(StubModel, "noise_floor", 2.5 / thresholds.RANDOM_GAP[0])
     monkeypatch.setattr(module, "begin_beside_torque", lambda model, *rest: plain if model is plain.model else start)
@@ -251,6 +252,7 @@ def test_what_halves_the_gap_is_kept_where_nothing_else_is_certain(
     stays = selection_of(plain.model, step_of(stub_test("voltage_limit", plain.model, 4.0, 100.0)))
     ended = selection_of(seen(stub_model(left * thresholds.HALVED_GAP * 8.0), by_fit))
     monkeypatch.setattr(Model, "complete", False)
+    monkeypatch.setattr(module, "is_of_no_motor", lambda model: False)
     monkeypatch.setattr(module, "may_be_of_gains", lambda step, hold_out: False)
     monkeypatch.setattr(module, "begin_beside_torque", lambda *rest: plain)
     monkeypatch.setattr(module, "select_forward", lambda selection, *_, **__: selection)
@@ -264,8 +266,21 @@ def test_what_depends_on_where_it_was_begun_is_not_kept(same: bool, monkeypatch:
     plain, one, other = (selection_of(seen(stub_model(gap), False)) for gap in (8.0, 1.0, 1.1))
     effects = {id(one.model): ("coast_drive",), id(other.model): ("coast_drive" if same else "voltage_limit",)}
     monkeypatch.setattr(StubModel, "effects", property(lambda model: effects.get(id(model), ())))
+    monkeypatch.setattr(module, "is_of_no_motor", lambda model: False)
     monkeypatch.setattr(module, "drop_stand_ins_of_either", lambda *several: plain)
     assert (module._choose_incomplete([one, other], plain) is one) is same
+
+
+@pytest.mark.parametrize(
+    ("no_motor", "beside_neither", "kept"), [(True, False, True), (True, True, False), (False, False, False)]
+)
+def test_what_makes_a_motor_of_it_is_kept_though_structure_is_left(
+    no_motor: bool, beside_neither: bool, kept: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    plain, found = (selection_of(seen(stub_model(gap), True)) for gap in (8.0, 1.0))
+    unlike = {id(plain.model): no_motor, id(found.model): beside_neither}
+    monkeypatch.setattr(module, "is_of_no_motor", lambda model: unlike[id(model)])
+    assert (module._choose_incomplete([found], plain) is found) is kept
 
 
 @pytest.mark.parametrize("differ", [True, False])
