@@ -23,9 +23,9 @@ from motor_identification.diagnosis.selection.determination import (
     drop_undetermined,
     drop_undetermined_at_once,
     find_limits_hit,
-    is_of_no_motor,
     find_undetermined,
     is_needed,
+    is_of_no_motor,
     is_steady_beside_torque,
     is_undetermined,
 )
