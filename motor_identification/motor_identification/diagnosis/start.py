@@ -10,7 +10,7 @@ from motor_identification.estimation.search.global_search import search_globally
 from motor_identification.estimation.thinning import thin_problem
 from motor_identification.periodic.periodic_fit import add_periodic_effects, drop_periodic_effects
 from motor_identification.recording import Recording
-from motor_identification.timing.speed_timing import find_timing, find_voltages
+from motor_identification.timing.speed_timing import find_earlier_voltages, find_timing, find_voltages
 from motor_identification.timing.timing import Timing
 from motor_identification.validation.hold_out import HoldOut, make_hold_out
 from motor_model.effects import normalised
@@ -67,6 +67,15 @@ def find_voltages_beside(first: Start, selection: Selection) -> Timing | None:
     """
     model, restrict = selection.model, first.selection.hold_out.restrict
     return find_voltages(first.recordings, model.estimate, restrict, model.effects)
+
+
+def find_earlier_voltages_beside(first: Start, selection: Selection, timing: Timing | None) -> Timing | None:
+    """Find whether voltages held until rows, beside an inductance and what was selected by another timing.
+
+    None where they do not, or where somebody said from when on they hold.
+    """
+    model, restrict = selection.model, first.selection.hold_out.restrict
+    return find_earlier_voltages(first.recordings, model.estimate, restrict, model.effects, timing)
 
 
 def begin_as_timed(first: Start, timing: Timing | None, request: Request, stopped: Callable[[], bool]) -> Start:

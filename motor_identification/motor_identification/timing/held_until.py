@@ -26,7 +26,7 @@ from motor_identification.recording import Recording
 from motor_identification.sensor.speed_sensor import find_counts, find_speed_sensor
 from motor_identification.timing.shaped_fit import BEGIN, ITERATIONS, TOLERANCE, Shaper
 from motor_identification.timing.timing import ASSUMED, LEAST_DELAY, OTHERS, UNTIL, Timing, is_open, is_voltage_open
-from motor_model.effects import SPEC_BY_NAME
+from motor_model.effects import LAGGING, SPEC_BY_NAME
 
 # Of log likelihood, in all and a row, which the later reading has to be worth. Measured in some hundred simulated logs,
 # written either way, with nothing late in them: 20 to 1,100 (0.015 to 0.5 a row) where voltages held until their rows
@@ -92,6 +92,19 @@ def held_until(shaper: Shaper, complete: bool = False) -> bool:
     gain = later.likelihood - as_logged.likelihood
     least = LEAST_GAIN if complete else max(LEAST_GAIN, LEAST_GAIN_OF_ROW * count_intervals(first))
     return later.delay < MOST_DELAY and gain > least
+
+
+def find_held_behind_lag(shaper: Shaper, known: Timing) -> Timing | None:
+    """Find how speeds were made if voltages held until the rows, beside an inductance; None if that is not likelier.
+
+    A lag of the sensor and voltages that are a row early hide each other, as far as a dead time goes. known: as what
+    else was found has them. Measured: a tachogenerator's filter of a row and a half, likelier by 1,256.
+    """
+    others = (UNTIL,) if all(map(is_voltage_open, shaper.recordings)) else (UNTIL, OTHERS[2])
+    least = _fit_beside_torque(shaper.fit(known, LAGGING).estimate).likelihood + LEAST_GAIN
+    found = [(_fit_beside_torque(shaper.fit(timing, LAGGING).estimate), timing) for timing in others]
+    likely = [one for one in found if one[0].delay < MOST_DELAY and one[0].likelihood > least]
+    return max(likely, key=lambda one: one[0].likelihood)[1] if likely else None
 
 
 def describe_untold(estimate: Estimate, errors: Mapping[str, float]) -> list[str]:

@@ -22,7 +22,7 @@ from motor_identification.estimation.problem import Problem
 from motor_identification.recording import Floats, Recording
 from motor_identification.sensor.speed_sensor import find_speed_sensor, is_converted, lies_on_steps
 from motor_identification.timing.error_likelihood import measure_log_likelihood
-from motor_identification.timing.held_until import held_until
+from motor_identification.timing.held_until import find_held_behind_lag, held_until
 from motor_identification.timing.pulse_slot import (
     are_coarse,
     find_likeliest_slot,
@@ -101,6 +101,28 @@ def find_voltages(
     shaper = Shaper(recordings, estimate, restrict, _list_shaping(beside))
     told = sum(map(len, recordings)) >= LEAST_SPEEDS and all(map(is_voltage_open, recordings))
     return UNTIL if told and held_until(shaper, complete=True) else None
+
+
+def find_earlier_voltages(
+    recordings: Sequence[Recording],
+    estimate: Estimate,
+    restrict: Callable[[Problem], Problem] | None,
+    beside: Sequence[str],
+    known: Timing | None,
+) -> Timing | None:
+    """Find whether voltages held until rows beside an inductance that nobody may have found, by effects that shape.
+
+    None where nobody asked for it: they do so already, it was said, or speeds passed a filter or are of edges' times.
+    For the rest see `find_timing`; known: what that gave.
+    """
+    timing = ASSUMED if known is None else known
+    open_ = all(is_voltage_open(one) or (is_open(one) and one.info.voltage_assumed) for one in recordings)
+    usual = timing.filter is None and timing.slot == 0.0 and not timing.is_early
+    if not (open_ and usual) or sum(map(len, recordings)) < LEAST_SPEEDS:
+        return None
+    shaper = Shaper(recordings, estimate, restrict, _list_shaping(beside), timing.rows)
+    found = find_held_behind_lag(shaper, timing)
+    return None if found is None else replace(found, rows=timing.rows)
 
 
 def _find_beside(shaper: Shaper, filtered: bool) -> Timing | None:

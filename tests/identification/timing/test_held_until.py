@@ -24,10 +24,12 @@ from motor_identification.identify import Request, identify
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.recording import Recording, check, recording_of
 from motor_identification.timing import held_until as module
-from motor_identification.timing.held_until import _Reading, describe_untold
+from motor_identification.timing.held_until import _Reading, describe_untold, find_held_behind_lag
 from motor_identification.timing.shaped_fit import Shaper
-from motor_identification.timing.speed_timing import find_timing, find_voltages
-from motor_identification.timing.timing import ASSUMED, UNTIL, Timing, is_voltage_open, read_again
+from motor_identification.timing.speed_filter import SpeedFilter
+from motor_identification.timing.speed_timing import find_earlier_voltages, find_timing, find_voltages
+from motor_identification.timing.timing import ASSUMED, OTHERS, UNTIL, Timing, is_voltage_open, read_again
+from motor_model.effects import LAGGING
 from motor_model.sample import Info, Measurement, Sample
 
 Floats = NDArray[np.float64]
@@ -118,6 +120,49 @@ def test_no_motion_is_late_by_a_sensor_or_a_winding_that_comes_early() -> None:
     smoothed = np.round(np.convolve(late.edge_count, [0.25, 0.5, 0.25])[: len(late)]).astype(np.int64)
     smoothed[:2] = late.edge_count[0]
     assert timing_of(check(replace(late, edge_count=smoothed))) is None
+
+
+def earlier_of(recording: Recording, known: Timing | None = None, beside: tuple[str, ...] = ()) -> Timing | None:
+    estimate, _ = search_globally(make_problem([recording], beside), SearchConfig())
+    return find_earlier_voltages([recording], estimate, None, beside, known)
+
+
+def test_behind_a_lag_of_the_sensor_voltages_that_held_until_their_rows_are_found() -> None:
+    """A filter of a row and a half and a voltage that is a row early are half a row, as far as a dead time goes."""
+    drive = profiles.random(6.0, 20.0)
+    exact, _ = record(RUBBING, *drive, edges=9600, sample_rate=1.0 / ROW, single_channel=False)
+    share = 1.0 - np.exp(-1.0 / 1.5)
+    lagging = lfilter([share], [1.0, share - 1.0], as_speed(exact).speed)
+    noise = 0.05 * np.random.default_rng(7).standard_normal(len(lagging))
+    logged = without_count(assume(replace(as_speed(exact), speed=lagging + noise)))
+    early = until(logged)
+    for known in (None, ASSUMED, OTHERS[0]):
+        found = earlier_of(early, known, ("coulomb_friction",))
+        assert found in (UNTIL, OTHERS[2]) and earlier_of(logged, known, ("coulomb_friction",)) is None
+    for known in (UNTIL, replace(ASSUMED, slot=0.1), replace(ASSUMED, filter=SpeedFilter("once", 0.4))):
+        assert earlier_of(early, known, ("coulomb_friction",)) is None
+    assert earlier_of(assume(early, False)) is None and earlier_of(early.between(0.0, 0.8)) is None
+    assert earlier_of(until(counted(electrical_time_constant=0.01))) == UNTIL
+    assert earlier_of(counted(electrical_time_constant=0.01)) is None
+
+
+@pytest.mark.parametrize(
+    ("gain", "delay", "timing"),
+    [(21.0, 0.49, OTHERS[2]), (19.0, 0.49, None), (21.0, 0.51, None), (0.0, 0.0, None)],
+)
+def test_every_limit_of_what_is_looked_for_behind_a_lag_decides(
+    gain: float, delay: float, timing: Timing | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shaper = cast(Shaper, SimpleNamespace(recordings=[assume(without_count(as_speed(counted())))], fit=fit_nothing))
+    values = {ASSUMED: (0.0, 0.0), UNTIL: (18.0, 0.0), OTHERS[2]: (gain, delay)}
+    readings = {one: SimpleNamespace(likelihood=gain, delay=late) for one, (gain, late) in values.items()}
+    monkeypatch.setattr(module, "_fit_beside_torque", readings.__getitem__)
+    assert find_held_behind_lag(shaper, ASSUMED) == timing
+
+
+def fit_nothing(timing: Timing, beside: tuple[str, ...]) -> SimpleNamespace:
+    assert beside == LAGGING
+    return SimpleNamespace(estimate=timing)
 
 
 @pytest.mark.parametrize(

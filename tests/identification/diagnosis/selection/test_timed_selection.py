@@ -21,6 +21,7 @@ ROW = 0.01  # [s]
 def untold_voltages(monkeypatch: pytest.MonkeyPatch) -> None:
     """Rows hold the voltages from them on, wherever a test says nothing else."""
     monkeypatch.setattr(timed_selection, "find_voltages_beside", lambda *_: None)
+    monkeypatch.setattr(timed_selection, "find_earlier_voltages_beside", lambda *_: None)
 
 
 @pytest.mark.parametrize(
@@ -58,7 +59,7 @@ def test_a_filter_behind_which_much_is_left_is_doubted(
     monkeypatch.setattr(timed_selection, "find_timing_beside", look)
     monkeypatch.setattr(timed_selection, "select_in_time", select)
     monkeypatch.setattr(timed_selection, "begin_as_timed", again)
-    limit = SimpleNamespace(begin_with=lambda _: None, begin_again=lambda: True)
+    limit = SimpleNamespace(begin_with=lambda _: None, begin_again=lambda: True, best=None)
     reporter = SimpleNamespace(stopped=lambda: False, beyond=lambda _: None)
     first = SimpleNamespace(selection=None)
     start, _ = select_as_timed(first, Request(), reporter, limit)  # type: ignore[arg-type]
@@ -270,7 +271,7 @@ def test_what_was_found_is_asked_for_another_timing_where_something_is_left_that
     monkeypatch.setattr(
         timed_selection, "begin_as_timed", lambda one, timing, *_: SimpleNamespace(selection=None, timing=timing)
     )
-    limit = SimpleNamespace(begin_with=lambda _: None, begin_again=lambda: True)
+    limit = SimpleNamespace(begin_with=lambda _: None, begin_again=lambda: True, best=None)
     reporter = SimpleNamespace(stopped=lambda: False, beyond=lambda _: None)
     start, _ = select_as_timed(SimpleNamespace(selection=None), Request(), reporter, limit)  # type: ignore[arg-type]
     assert start.timing == (slotted if taken else OTHERS[0])
@@ -314,7 +315,7 @@ def test_values_of_instants_that_are_half_a_row_late_are_means(
         "begin_as_timed",
         lambda one, timing, *_: SimpleNamespace(selection=None, timing=timing, recordings=recordings),
     )
-    limit = SimpleNamespace(begin_with=lambda _: None, begin_again=lambda: True)
+    limit = SimpleNamespace(begin_with=lambda _: None, begin_again=lambda: True, best=None)
     reporter = SimpleNamespace(stopped=lambda: False, beyond=lambda _: None)
     start, _ = select_as_timed(SimpleNamespace(selection=None), Request(), reporter, limit)  # type: ignore[arg-type]
     assert start.timing == (None if taken else timing)
@@ -360,7 +361,59 @@ def test_a_lag_that_undoes_the_voltages_before_is_none(
     monkeypatch.setattr(
         timed_selection, "begin_as_timed", lambda one, timing, *_: SimpleNamespace(selection=None, timing=timing)
     )
-    limit = SimpleNamespace(begin_with=lambda _: None, begin_again=lambda: True)
+    limit = SimpleNamespace(begin_with=lambda _: None, begin_again=lambda: True, best=None)
     reporter = SimpleNamespace(stopped=lambda: False, beyond=lambda _: None)
     start, _ = select_as_timed(SimpleNamespace(selection=None), Request(), reporter, limit)  # type: ignore[arg-type]
     assert start.timing == (after if taken else before)
+
+
+@pytest.mark.parametrize(
+    ("complete", "told", "time", "gap", "explained", "near", "taken"),
+    [
+        (False, True, True, 1.09, True, True, True),
+        (False, True, True, 1.09, True, False, True),
+        (False, True, True, 1.11, True, True, False),
+        (False, True, True, 1.0, False, True, False),
+        (False, True, False, 1.0, True, True, False),
+        (False, False, True, 1.0, True, True, False),
+        (True, True, True, 1.0, True, True, False),  # nothing is left that they would explain
+    ],
+)
+def test_what_a_lag_hides_of_earlier_voltages_is_looked_for_before_the_table_is_left(
+    monkeypatch: pytest.MonkeyPatch,
+    complete: bool,
+    told: bool,
+    time: bool,
+    gap: float,
+    explained: bool,
+    near: bool,
+    taken: bool,
+) -> None:
+    """Of a limit and an inductance one row of 1 ms left 64 times the floor: an effect "which is not in the table"."""
+    states = iter([(1.0, complete), (gap, explained)])
+    asked: list[Any] = []
+    kept: list[Any] = []
+
+    def select(*_: Any) -> Any:
+        left, whole = next(states)
+        model = SimpleNamespace(held=SimpleNamespace(gap=left), above_floor=True, complete=whole)
+        return Selected(SimpleNamespace(model=model, complete=whole), (), finished=True)  # type: ignore[arg-type]
+
+    def look(first: Any, selection: Any, timing: Timing | None) -> Timing | None:
+        asked.append((selection, timing))
+        return UNTIL if told else None
+
+    nearest = SimpleNamespace(steps=("voltage_limit",) if near else ())
+    first = SimpleNamespace(selection=None, timing=None)
+    again = SimpleNamespace(selection=None, timing=UNTIL)
+    monkeypatch.setattr(timed_selection, "_select_beside_timing", lambda *_: (first, select()))
+    monkeypatch.setattr(timed_selection, "find_earlier_voltages_beside", look)
+    monkeypatch.setattr(timed_selection, "select_in_time", select)
+    monkeypatch.setattr(timed_selection, "begin_as_timed", lambda *_: again)
+    limit = SimpleNamespace(begin_with=kept.append, begin_again=lambda: time, best=nearest)
+    reporter = SimpleNamespace(stopped=lambda: False, beyond=lambda _: None)
+    start, selected = select_as_timed(first, Request(), reporter, limit)  # type: ignore[arg-type]
+    assert start is (again if taken else first)
+    assert selected.finished is (time or not told or complete)
+    assert [(one is nearest, timing) for one, timing in asked] == ([] if complete else [(near, None)])
+    assert (len(kept) == 1) is (told and time and not complete and not taken)
