@@ -71,6 +71,15 @@ class Nearest:
 
 
 @dataclass(frozen=True)
+class Imitated:
+    """An effect that a recording could not have shown, since beside it kv would be another, and all else as it is."""
+
+    effect: str
+    size: float  # that matters, of its first parameter
+    kv: float  # [V·s/rad] that the motor would have beside it
+
+
+@dataclass(frozen=True)
 class Diagnosis:
     """Verdict, findings, and the model with them; gaps in rad/s on held-out data."""
 
@@ -98,6 +107,7 @@ class Diagnosis:
     undetermined: tuple[str, ...] = ()  # effects that would explain more, of which this recording determines nothing
     nearest: Nearest | None = None  # where nothing explains the gap, but something takes away most of it
     gain_scatter: float = 0.0  # standard deviation of the runs' gains, as of a supply that differs; 0 where they agree
+    imitated: Imitated | None = None  # of what could not be shown, what would make kv another by most
     undriven: Undriven | None = None  # a motor that ran on at 0 V, of which no effect is looked for
     time_limit: float = 0.0  # [s] that ended the search before everything was tried; 0 where none did
 

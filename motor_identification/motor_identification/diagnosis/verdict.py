@@ -7,7 +7,7 @@ import numpy as np
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
-from motor_identification.diagnosis.detectability import find_undetectable, list_unturned_discs
+from motor_identification.diagnosis.detectability import find_imitated, find_undetectable, list_unturned_discs
 from motor_identification.diagnosis.effect_test import is_over_too_soon, list_candidates, sort_by_table
 from motor_identification.diagnosis.evidence.command_evidence import find_falling, find_ignored, goes_with_sweep
 from motor_identification.diagnosis.findings import doubt_lags, leave_out_named, list_findings, list_gaps
@@ -49,6 +49,7 @@ def conclude(
     possible = tuple(
         name for name in hidden if not is_over_too_soon(name, last.held)
     )  # what cannot have come yet is none
+    undetectable = leave_out_named(hidden, findings, undetermined)
     verdict, suggestion = decide(findings, selection, possible, undetermined)
     found = Diagnosis(
         verdict=verdict,
@@ -61,7 +62,8 @@ def conclude(
         sensor_floor=last.sensor_floor,
         disturbance=last.estimate_disturbance() if last.complete else None,  # else structure is in it
         structure=selection.structure,
-        undetectable=leave_out_named(hidden, findings, undetermined),
+        undetectable=undetectable,
+        imitated=find_imitated(last, undetectable),
         suggested_experiment=suggestion,
         before=base.held,
         after=last.held,

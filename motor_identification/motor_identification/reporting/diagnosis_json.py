@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from motor_identification.diagnosis.result import Diagnosis, Finding, Nearest
+from motor_identification.diagnosis.result import Diagnosis, Finding, Imitated, Nearest
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.noise.error_model import Disturbance
 from motor_identification.reporting.json_values import to_estimate, to_model, to_number
@@ -26,6 +26,7 @@ def diagnosis_to_json(diagnosis: Diagnosis) -> dict[str, Any]:
         "verdict": diagnosis.verdict.value,
         "undetectable": list(diagnosis.undetectable),
         "not_testable": list(diagnosis.undetectable),
+        "imitated": _imitated_to_json(diagnosis.imitated),
         "undetermined": list(diagnosis.undetermined),
         "nearest": _nearest_to_json(diagnosis.nearest),
         "suggested_experiment": diagnosis.suggested_experiment or None,
@@ -44,6 +45,12 @@ def _disturbance_to_json(disturbance: Disturbance | None) -> dict[str, Any] | No
         "rms_voltage": to_estimate(disturbance.rms_voltage, disturbance.rms_error),
         "correlation_time": to_estimate(disturbance.correlation_time, disturbance.time_error),
     }
+
+
+def _imitated_to_json(imitated: Imitated | None) -> dict[str, Any] | None:
+    if imitated is None:
+        return None
+    return {"effect": imitated.effect, "size": to_number(imitated.size), "kv": to_number(imitated.kv)}
 
 
 def _nearest_to_json(nearest: Nearest | None) -> dict[str, Any] | None:

@@ -10,7 +10,7 @@ from motor_identification.diagnosis.evidence.command_evidence import (
     find_ignored,
     goes_with_sweep,
 )
-from motor_identification.diagnosis.result import Diagnosis, Finding, Verdict, list_vague
+from motor_identification.diagnosis.result import Diagnosis, Finding, Imitated, Verdict, list_vague
 from motor_identification.diagnosis.thresholds import EXPLAINED_GAP, LEAST_TURNS, SURE_SIZE
 from motor_identification.discrepancy.missing_torque import describe_torque, estimate_missing_torque
 from motor_identification.discrepancy.region_text import describe_error
@@ -27,7 +27,7 @@ from motor_identification.reporting.caveats_text import (
 )
 from motor_identification.reporting.diagnosis_table import format_parameters
 from motor_identification.reporting.names import capitalize, effect_name, join_effects, join_names
-from motor_identification.reporting.numbers import describe_change, format_ratio
+from motor_identification.reporting.numbers import describe_change, format_ratio, format_unit
 from motor_model.effects import EFFECT_BY_NAME
 
 GAP, FITTED_GAP = "validation RMS error (gap)", "RMS error (gap)"
@@ -171,7 +171,15 @@ def _describe_structure(diagnosis: Diagnosis) -> str:
 def _describe_untestable(diagnosis: Diagnosis) -> str:
     if not diagnosis.undetectable:
         return ""
-    return f"This recording could not show {join_effects(diagnosis.undetectable)}."
+    text = f"This recording could not show {join_effects(diagnosis.undetectable)}."
+    return f"{text} {_describe_imitated(diagnosis.imitated)}" if diagnosis.imitated else text
+
+
+def _describe_imitated(imitated: Imitated) -> str:
+    """Say what kv would be beside an effect that it imitates."""
+    name, spec = join_effects([imitated.effect]), EFFECT_BY_NAME[imitated.effect].parameters[0]
+    size = f"{spec.name} = {imitated.size:.2g} {format_unit(spec.name)}".rstrip()
+    return f"kv and its ± hold without those: beside {name} ({size}), say, kv would be {imitated.kv:.3g} V·s/rad."
 
 
 def _unexplained(diagnosis: Diagnosis) -> str:

@@ -5,8 +5,14 @@ import pytest
 from diagnosed import fitted
 from plant import profiles, record
 
+from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import validate_model
-from motor_identification.diagnosis.detectability import find_undetectable, list_unturned_discs, remove_imitation
+from motor_identification.diagnosis.detectability import (
+    find_imitated,
+    find_undetectable,
+    list_unturned_discs,
+    remove_imitation,
+)
 from motor_identification.diagnosis.selection.selection import begin_selection
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
@@ -43,6 +49,32 @@ def test_a_single_step_does_not_show_friction() -> None:
     assert "transport_delay" not in hidden  # of a step it is the first that one sees
     assert {"load_step", "warm_up"} <= set(hidden)  # which would be judged by what they were fitted to
     assert {"torque_ripple", "encoder_eccentricity"} <= set(hidden)  # of which any motion that was seen has some line
+
+
+@pytest.mark.parametrize(("limit", "told"), [(0.99, True), (1.01, False)])
+@pytest.mark.parametrize("of_errors", [True, False])
+def test_a_step_tells_what_kv_would_be_beside_a_friction_that_it_does_not_show(
+    limit: float, told: bool, of_errors: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """At 10 V a friction of 0.3 V is 3 % of kv, of which the standard error of a motor without any says nothing."""
+    recording = check(record({"kv": PAPER_KV, "ka": PAPER_KA}, *profiles.step(10.0, 1.0), seed=1)[0])
+    hold_out = make_hold_out([recording], [])
+    estimate = fit_speeds(Estimate(hold_out.restrict(make_problem([recording], ())), np.log([PAPER_KV, PAPER_KA])))
+    model = validate_model(hold_out, estimate)
+    found = find_imitated(model, ("coulomb_friction", "torque_ripple"))
+    assert found is not None and found.effect == "coulomb_friction"
+    assert found.kv == pytest.approx((1.0 - found.size / 10.0) * PAPER_KV, rel=2e-3)
+    change = abs(found.kv / estimate.parameters.value("kv") - 1.0)
+    assert thresholds.IMITATION < change < 0.05
+    if of_errors:
+        sure = -np.log(found.kv / estimate.parameters.value("kv")) / model.uncertainty.errors[0]
+        monkeypatch.setattr(thresholds, "SURE_IMITATION", limit * sure)
+    else:
+        monkeypatch.setattr(thresholds, "IMITATION", limit * change)
+    assert (find_imitated(model, ("coulomb_friction",)) is not None) is told
+    assert find_imitated(model, ()) is None and find_imitated(model, ("torque_ripple",)) is None
+    worst = find_imitated(model, ("direction_asymmetry", "coulomb_friction", "transport_delay"))
+    assert (worst is not None) is told  # what it shows, or what changes nothing, is none
 
 
 @pytest.mark.parametrize(("turns", "shown"), [(1.8, False), (2.3, True)])

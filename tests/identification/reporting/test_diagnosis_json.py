@@ -6,7 +6,7 @@ from math import nan
 
 import pytest
 
-from motor_identification.diagnosis.result import Diagnosis, Nearest, Verdict
+from motor_identification.diagnosis.result import Diagnosis, Imitated, Nearest, Verdict
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.noise.error_model import Disturbance
 from motor_identification.reporting.diagnosis_json import diagnosis_to_json
@@ -17,8 +17,8 @@ def test_json_is_the_promised_form(found: Diagnosis, variants: dict[Verdict, Dia
     content = json.loads(json.dumps(diagnosis_to_json(nameless), allow_nan=False))
     assert list(content) == [
         "bags", "validation", "noise_floor", "sensor_floor", "disturbance", "gain_scatter", "structure",
-        "gap_before", "gap_after", "held_out", "verdict", "undetectable", "not_testable", "undetermined", "nearest",
-        "suggested_experiment", "time_limit", "baseline", "findings", "model", "notes",
+        "gap_before", "gap_after", "held_out", "verdict", "undetectable", "not_testable", "imitated", "undetermined",
+        "nearest", "suggested_experiment", "time_limit", "baseline", "findings", "model", "notes",
     ]  # fmt: skip
     assert content["bags"] == ["train.bag"] and content["validation"] == ["held_out.bag"]
     assert content["gap_before"] == found.gap_before and content["noise_floor"] == found.noise_floor
@@ -39,6 +39,9 @@ def test_json_is_the_promised_form(found: Diagnosis, variants: dict[Verdict, Dia
     assert finding["sensor_may_lag"] is False
     doubted = replace(found, findings=(replace(found.findings[0], sensor_may_lag=True),))
     assert diagnosis_to_json(doubted)["findings"][0]["sensor_may_lag"] is True
+    assert content["imitated"] is None
+    beside = diagnosis_to_json(replace(found, imitated=Imitated("dead_zone", 0.35, 0.142)))["imitated"]
+    assert beside == {"effect": "dead_zone", "size": 0.35, "kv": 0.142}
     assert content["nearest"] is None
     nearest = diagnosis_to_json(replace(found, nearest=Nearest(("dead_zone", "coast_drive"), 11.25)))["nearest"]
     assert nearest == {"effects": ["dead_zone", "coast_drive"], "gap": 11.25}

@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from motor_identification.diagnosis.evidence.command_evidence import Ignored
-from motor_identification.diagnosis.result import Diagnosis, Nearest, Verdict
+from motor_identification.diagnosis.result import Diagnosis, Imitated, Nearest, Verdict
 from motor_identification.diagnosis.thresholds import EXPLAINED_GAP
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.noise.error_model import Disturbance
@@ -65,6 +65,13 @@ def test_an_undecided_recording_without_findings_says_what_it_hides(variants: di
     one = replace(variants[Verdict.NOTHING_MISSING], verdict=Verdict.UNDECIDED, undetectable=("dead_zone", "backlash"))
     assert "Nothing is missing that this recording could show" in summarize_diagnosis(one)
     assert summarize_diagnosis(one).endswith("This recording could not show dead zone or backlash.")
+    beside = replace(one, imitated=Imitated("dead_zone", 0.351, 0.1419))
+    assert summarize_diagnosis(beside).endswith(
+        "show dead zone or backlash. kv and its ± hold without those: beside dead zone (dead_zone_voltage = 0.35 V), "
+        "say, kv would be 0.142 V·s/rad."
+    )
+    bent = replace(one, imitated=Imitated("coast_drive", 0.2, 0.1419))
+    assert "beside coast drive (coast_share = 0.2), say" in summarize_diagnosis(bent)
     assert join_effects(tuple(effect.name for effect in EFFECTS)).endswith(f" and {len(EFFECTS) - 6} others")
 
 
