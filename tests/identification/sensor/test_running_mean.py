@@ -12,8 +12,10 @@ from motor_identification.sensor.running_mean import (
     ROOM,
     _find_longest,
     find_running_mean,
+    size_of_count,
     take_single_rows,
 )
+from motor_identification.sensor.value_lattice import FINEST, find_lattice
 
 PERIOD = 0.001  # [s]
 
@@ -40,6 +42,19 @@ def running(window: int, edges: float, seed: int = 0, way: float = 1.0) -> Float
 @pytest.mark.parametrize(("edges", "way"), [(48.4, 1.0), (300.0, -1.0)], ids=["few counts", "many, backward"])
 def test_a_running_mean_is_recognised(window: int, edges: float, way: float) -> None:
     assert [find_running_mean(running(window, edges, seed, way)) for seed in range(3)] == [window] * 3
+
+
+@pytest.mark.parametrize("digits", [3, 6])
+def test_a_mean_of_many_counts_is_taken_apart_where_its_single_rows_have_no_more_than_matter(digits: int) -> None:
+    """It has as many times the levels of a single row as it has rows: more than are looked for in speeds."""
+    window, edges = 32, 40_000.0
+    means, single = np.round(running(window, edges), digits), running(1, edges)
+    one = 2.0 * np.pi / edges / PERIOD
+    assert np.max(single) < FINEST * one and np.max(means) > 20.0 * FINEST * one / window
+    assert find_lattice(means) == 0.0 and find_running_mean(means) == window
+    taken = take_single_rows(means, window)
+    assert taken is not None and np.array_equal(np.rint(taken / one), np.rint(single / one))
+    assert size_of_count(means, window) == pytest.approx(one, rel=1e-4)
 
 
 @pytest.mark.parametrize("digits", [2, 4])
