@@ -17,6 +17,7 @@ from motor_identification.logs.rows.drive.own_counts import (
     FEWEST_ROWS,
     MOST_LOST,
     SHARE,
+    _explain,
     find_pole,
     take_fed_back,
 )
@@ -138,6 +139,18 @@ def test_rows_that_are_missing_are_missing_in_a_sum(share: float, summed: bool) 
     kept = np.delete(np.arange(len(loop.time)), lost)
     some = Loop(loop.time[kept], loop.voltage[kept], loop.speed[kept], loop.counts[kept])
     assert (take_fed_back(some.signals(), ROW) is not None) is summed
+
+
+@pytest.mark.parametrize("counts_a_row", [0.4, 0.8])
+def test_ramps_that_a_quick_motor_follows_are_no_loop(counts_a_row: float) -> None:
+    """Its speed changes by as much in every row, either way, as its command does; only the rounding of a row tells."""
+    rows, a_row = 1500, 0.08
+    ramp = a_row * (50.0 - np.abs(np.arange(rows) % 200 - 100.0))
+    speed = lfilter([0.25], [1.0, -0.75], ramp * counts_a_row * ONE / a_row)
+    counts = np.floor(np.cumsum(speed) * ROW / SLOT)
+    loop = Loop(ROW * np.arange(rows), ramp, np.diff(counts, prepend=0.0) * ONE, counts)
+    assert _explain(np.diff(loop.voltage), np.diff(loop.speed))  # as they are they seem to be one
+    assert take_fed_back(loop.signals(), ROW) is None
 
 
 def test_a_run_of_few_rows_does_not_tell() -> None:
