@@ -239,7 +239,12 @@ def _about_count(form: CsvForm, signals: Signals, edges: int, window: float) -> 
         size = edge_angle(edges, form.gear) / window / unit
         return f"One count ({edges} per revolution) within the window is {size:.4g} {form.unit}."
     step, noise, _ = find_noise(
-        signals.motion * unit, signals.voltage, window, gear=float(form.gear), uneven=_measure_unevenness(signals)
+        signals.motion * unit,
+        signals.voltage,
+        window,
+        gear=float(form.gear),
+        uneven=_measure_unevenness(signals),
+        window_said=bool(form.speed_window),
     )
     if step > 0.0:
         frame = 0.0 if form.speed_window else _measure_frame(signals)

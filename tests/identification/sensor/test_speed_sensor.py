@@ -17,6 +17,7 @@ from motor_identification.sensor.description import note_sensors
 from motor_identification.sensor.speed_sensor import (
     COUNT_NOISE,
     EVEN_ROWS,
+    MOST_COUNTS,
     NOISE_BEYOND_DIGITS,
     UNTOLD,
     are_blurred,
@@ -82,6 +83,17 @@ def test_a_converters_bits_are_no_counts(step: float, counts: bool) -> None:
     bits = replace(recording, speed=step * np.round(recording.speed / step))
     found = find_speed_sensor(bits)
     assert (found.step > 0.0) == counts and (counts or 1.8 * step < found.sigma < 2.2 * step + 0.08)
+
+
+@pytest.mark.parametrize(("noise", "counts"), [(2.6, False), (0.2, True)])
+def test_noisy_steps_of_which_no_encoder_has_so_many_a_turn_are_no_counts(noise: float, counts: bool) -> None:
+    """As of a tachogenerator behind ten bits: of an encoder of a geared shaft there may be so many, with less noise."""
+    exact = noisy(0.0)
+    swings, step = exact.speed / np.max(np.abs(exact.speed)), tau / (2.3 * MOST_COUNTS) / exact.info.sample_period
+    values = step * np.round(100.0 * swings + noise * np.random.default_rng(1).standard_normal(len(swings)))
+    found = find_speed_sensor(replace(exact, speed=values))
+    assert (found.step > 0.0) is counts
+    assert counts or found.sigma == pytest.approx(noise * step, rel=0.2)
 
 
 def test_held_speeds_have_the_times_of_their_frames() -> None:

@@ -2,14 +2,14 @@
 
 A filter's lag is an inductance to the motion, and a speed that was kept for a row is a dead time. Counts of a row each
 passed no filter, nor do times between edges; and what was said of a sensor is believed. Of other speeds nobody knows,
-unless their noise told a filter, which may be another one than it seems.
+unless their noise told a filter, which may be another one than it seems; nor of steps that may be a converter's.
 """
 
 from collections.abc import Sequence
 
 from motor_identification.measurement.pulse_intervals import measure_slot
 from motor_identification.recording import Recording
-from motor_identification.sensor.speed_sensor import find_speed_sensor
+from motor_identification.sensor.speed_sensor import find_speed_sensor, may_be_converted
 from motor_identification.timing.timing import is_open
 
 
@@ -23,4 +23,5 @@ def may_lag(logged: Sequence[Recording], read: Sequence[Recording]) -> bool:
 
 def _is_told(recording: Recording) -> bool:
     """Whether speeds are counts of a row each, or slots over the times between edges."""
-    return measure_slot(recording) > 0.0 or find_speed_sensor(recording).step > 0.0
+    counted = find_speed_sensor(recording).step > 0.0 and not may_be_converted(recording)
+    return measure_slot(recording) > 0.0 or counted
