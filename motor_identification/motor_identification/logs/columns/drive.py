@@ -29,6 +29,7 @@ FULL_DUTIES = (1.0, 100.0, 255.0, 1000.0, 1023.0, 4095.0, 32767.0, 65535.0)
 FULL_WHERE_REACHED = (127.0, 400.0, 2047.0)
 _PER_CENT = frozenset({"duty", "power", "throttle", "output", "effort", "control"})
 HUNDRED = 100.0  # all that per cent go to, and what people write to a PWM of 8 bits
+_CHOSEN = 5.0  # people's levels are multiples of: 15 of 100 or of 255
 _EFFORTS = words_of("effort esforço esforco esfuerzo")  # a share by its name alone: a control effort is a command
 _CONTROLLERS = words_of("control controle contrôle controller")
 _SHORTEST_PULSE = 400.0  # [µs] that any servo or ESC of usual pulses gets; 0 is none
@@ -37,7 +38,7 @@ _PULSES = (1_000.0, 2_500.0)  # [µs] the longest of a log, of which none is a s
 _SUPPLIES = (15.0, 18.0, 24.0, 36.0, 48.0)  # [V] where commands are cut off
 _MOST_VOLTS = 12.0  # of a command that never is larger: a duty of so few per cent, or of 255, moves no motor
 _CUT_OFF = 3  # rows at the largest command
-_BITS_8 = 255.0  # a duty of so many at most is called a voltage by some
+BITS_8 = 255.0  # of the register of most boards; a duty of so many at most is called a voltage by some
 _OF_DUTY = " (of a duty, say --full-duty)"
 _STEADY_SUPPLY = 0.5  # of its largest value: a supply stays above, a motor's voltage passes 0
 MILLIVOLTS_FROM = 100.0  # such a supply is given in mV
@@ -144,7 +145,7 @@ def _bits_by_name(words: tuple[str, ...], largest: float) -> int:
     `pwm 12 bit` does; `pwm10` may be a pin, whose 8 bits end at 255: beyond them 10 are meant.
     """
     told = [int(one) for one, unit in zip(words, words[1:], strict=False) if unit in _BITS and one in _TIMERS]
-    if not told and words[-1:] == ("10",) and words[-2:-1] and words[-2] in _TIMED and largest > _BITS_8:
+    if not told and words[-1:] == ("10",) and words[-2:-1] and words[-2] in _TIMED and largest > BITS_8:
         told = [10]
     return told[0] if len(told) == 1 and 1.0 < largest <= 2.0 ** told[0] - 1.0 else 0
 
@@ -165,10 +166,10 @@ def _drive_by_largest(heading: Heading, values: Floats, largest: float) -> Drive
     """A duty as a share of the first full one that its largest does not pass."""
     if largest == HUNDRED and not np.any(values % 1.0):
         return _drive_of_hundred(heading, values)
-    words = set(heading.words)
+    if 1.0 < largest < HUNDRED and not np.any(values % 1.0) and not set(heading.words) & _PER_CENT:
+        return _drive_below_hundred(values)
     for candidate in FULL_DUTIES if not _is_odd_timer(largest) else ():
-        per_cent = candidate == 100.0 and np.any(values % 1.0) == 0 and largest < 100.0 and not words & _PER_CENT
-        if largest <= candidate and not per_cent:
+        if largest <= candidate:
             return Drive(None, f"as a duty of ±{candidate:g} (assumed; otherwise: --full-duty)", candidate)
     return Drive(None, f"as a duty of ±{largest:g} (assumed; otherwise: --full-duty)", largest, sure=False)
 
@@ -184,6 +185,18 @@ def _drive_of_hundred(heading: Heading, values: Floats) -> Drive:
         "--full-duty 255: voltages are 2.55 times too large else)"
     )
     return Drive(None, why, HUNDRED, sure=len(levels) > 1 or bool(_PER_CENT & set(heading.words)))
+
+
+def _drive_below_hundred(values: Floats) -> Drive:
+    """Whole duties that never come to 100: of 8 bits, and as likely in per cent where people chose their levels.
+
+    A controller of 8 bits computes any whole number; one that computes per cent has fractions.
+    """
+    why = (
+        f"as a duty of ±{BITS_8:g} (assumed, as they are whole numbers; if they are per cent, say --full-duty 100: "
+        "voltages are 2.55 times too small else)"
+    )
+    return Drive(None, why, BITS_8, sure=bool(np.any(values % _CHOSEN)))
 
 
 def _why_in_volts(heading: Heading, values: Floats, largest: float) -> str:
@@ -205,7 +218,7 @@ def _is_cut_off(values: Floats) -> bool:
 def _is_mains(values: Floats, largest: float) -> bool:
     """Whether what is called a voltage, shape (K,), is a large machine's: beyond 8 bits, and on it never swings."""
     on = values[values != 0.0]
-    return largest > _BITS_8 and largest not in FULL_DUTIES and bool(np.all(on >= _STEADY_SUPPLY * largest))
+    return largest > BITS_8 and largest not in FULL_DUTIES and bool(np.all(on >= _STEADY_SUPPLY * largest))
 
 
 def _is_odd_timer(largest: float) -> bool:

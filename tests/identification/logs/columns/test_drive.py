@@ -38,6 +38,27 @@ def test_full_duty_by_the_largest_value(name: str, top: float, full: float) -> N
     assert duty_drive(read_heading(name), values, 500.0).full == 500.0
 
 
+@pytest.mark.parametrize(
+    ("name", "levels", "full", "sure"),
+    [
+        ("pwm", (0, 15, -15), 255.0, False),
+        ("pwm", (0, 60, 95), 255.0, False),
+        ("pwm", (0, 60, 64), 255.0, True),  # a quarter of 256
+        ("pwm", (0, 43, 60, -12), 255.0, True),  # of a controller
+        ("pwm", (0, 60, 105), 255.0, True),
+        ("power", (0, 60, 95), 100.0, True),  # called per cent by many
+        ("pwm", (0, 1), 1.0, True),
+    ],
+)
+def test_round_levels_below_100_may_be_per_cent(name: str, levels: tuple[int, ...], full: float, sure: bool) -> None:
+    """A Mecanum robot's "pwm" of 10 was 10 %, and was taken for 10 of 255."""
+    values = np.tile(np.array(levels, dtype=float), 20)
+    drive = duty_drive(read_heading(name), values)
+    assert (drive.full, drive.sure) == (full, sure)
+    assert ("if they are per cent, say --full-duty 100" in drive.why) is (full == 255.0 and max(levels) < 100)
+    assert duty_drive(read_heading(name), values, 100.0).sure
+
+
 @pytest.mark.parametrize(("top", "sure"), [(4095.0, True), (4096.0, False), (16383.0, False), (16384.0, True)])
 def test_a_timer_that_counts_to_a_number_of_its_own(top: float, sure: bool) -> None:
     values = np.rint(top * WAVE)

@@ -20,7 +20,7 @@ def volts_per_unit(drive: str, values: NDArray[np.float64], said: Said) -> float
 
 @pytest.mark.parametrize(("supply", "drive", "scale"), [(25.0, "setpoint", 25.0 / 255.0), (25.0, "setpoint [V]", 1.0)])
 def test_more_than_the_supply_are_no_volts(supply: float, drive: str, scale: float) -> None:
-    values = np.repeat([50.0, -50.0], 50)
+    values = np.repeat([51.0, -51.0], 50)
     assert volts_per_unit(drive, values, Said(supply_voltage=supply)) == pytest.approx(scale)
     assert volts_per_unit(drive, values, Said(supply_voltage=51.0)) == 1.0
 
@@ -55,6 +55,28 @@ def test_what_stays_under_no_name_may_be_a_target(name: str, last: float, doubte
     ((_, question),) = notes.questions
     assert ("is 200 in every row; if no controller's target, but a duty of ±255 (otherwise" in question) == doubted
     assert question.endswith("say the voltage at full duty (--supply-voltage V)")
+
+
+@pytest.mark.parametrize(("beside", "largest"), [(-30.0, "30"), (0.0, "15")])
+def test_a_duty_of_round_numbers_below_100_is_asked_for_with_the_largest_of_all_motors(
+    beside: float, largest: str
+) -> None:
+    """A log of four motors at "PWM" 15 was 0.88 V of a supply whose 15 % are 2.25 V, and only that supply was asked."""
+    cells = {"pwm_1": np.resize([0.0, 15.0, -15.0], 120), "speed_1 [rpm]": np.ones(120), "pwm_2": np.full(120, beside)}
+    table, notes, pair = (
+        Table(Path("log.csv"), np.arange(120), cells),
+        Notes([], []),
+        Pair("", "pwm_1", "speed_1 [rpm]"),
+    )
+    roles = Roles("t", (pair, Pair("2", "pwm_2", "speed_1 [rpm]")), None, None)
+    read_drive(table, pair, roles, Said(), notes)
+    ((_, question),) = notes.questions
+    assert question == (
+        f"is a duty, {largest} of 100 or of 255: say what it is at full duty (--full-duty D) and the voltage there "
+        "(--supply-voltage V)"
+    )
+    said = Said(supply_voltage=12.0, full_duty=100.0)
+    assert read_drive(table, pair, roles, said, Notes([], []))[1] == pytest.approx(0.12)
 
 
 @pytest.mark.parametrize(
