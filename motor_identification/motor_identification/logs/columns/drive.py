@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from motor_identification.logs.columns.behaviour.stray_rows import find_stray_rows
 from motor_identification.logs.columns.heading import Heading
 from motor_identification.logs.columns.names.quantity import is_pulse
 from motor_identification.logs.columns.vocabulary import SHARES, UNITS, VOLTAGE_WORDS, Quantity, words_of
@@ -13,6 +14,7 @@ from motor_identification.logs.correlation import correlate
 from motor_identification.logs.csv.table import Table
 
 Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
 
 # Levels of a drive that may be a set-point.
 BANDS = 8  # of the drive's range, each a level
@@ -30,6 +32,7 @@ FULL_WHERE_REACHED = (127.0, 400.0, 2047.0)
 _PER_CENT = frozenset({"duty", "power", "throttle", "output", "effort", "control"})
 HUNDRED = 100.0  # all that per cent go to, and what people write to a PWM of 8 bits
 _CHOSEN = 5.0  # people's levels are multiples of: 15 of 100 or of 255
+_OF_BOTH = ", {:g} of 100 or of 255"
 _EFFORTS = words_of("effort esforço esforco esfuerzo")  # a share by its name alone: a control effort is a command
 _CONTROLLERS = words_of("control controle contrôle controller")
 _SHORTEST_PULSE = 400.0  # [µs] that any servo or ESC of usual pulses gets; 0 is none
@@ -38,7 +41,7 @@ _PULSES = (1_000.0, 2_500.0)  # [µs] the longest of a log, of which none is a s
 _SUPPLIES = (15.0, 18.0, 24.0, 36.0, 48.0)  # [V] where commands are cut off
 _MOST_VOLTS = 12.0  # of a command that never is larger: a duty of so few per cent, or of 255, moves no motor
 _CUT_OFF = 3  # rows at the largest command
-BITS_8 = 255.0  # of the register of most boards; a duty of so many at most is called a voltage by some
+_BITS_8 = 255.0  # of the register of most boards; a duty of so many at most is called a voltage by some
 _OF_DUTY = " (of a duty, say --full-duty)"
 _STEADY_SUPPLY = 0.5  # of its largest value: a supply stays above, a motor's voltage passes 0
 MILLIVOLTS_FROM = 100.0  # such a supply is given in mV
@@ -64,6 +67,7 @@ class Drive:
     why: str
     full: float | None = None  # a duty's value at full duty
     sure: bool = True  # whether that could be told from its values at all
+    doubt: str = ""  # between what, where it could not
 
 
 def voltage_drive(heading: Heading, values: Floats) -> Drive:
@@ -114,6 +118,8 @@ def duty_drive(heading: Heading, values: Floats, full: float | None = None) -> D
             f"as a duty of ±{full_of_bits:g} (assumed, of {bits} bits by its name; otherwise: --full-duty)",
             full_of_bits,
         )
+    if (stray := find_stray_rows(values)).any() and (drive := _drive_but_for(stray, heading, values, largest)):
+        return drive
     if largest in FULL_WHERE_REACHED:
         levels = np.unique(np.abs(values[values != 0.0]))
         half = len(levels) == 1 and any(largest == full // 2 for full in FULL_DUTIES)  # one level is as likely half
@@ -123,6 +129,17 @@ def duty_drive(heading: Heading, values: Floats, full: float | None = None) -> D
     if heading.quantity is None and largest < 100.0 and not np.any(values % 1.0):  # of 100 or of 255: nothing tells
         return Drive(None, f"as a duty of ±{largest:g} (assumed; otherwise: --full-duty)", largest, sure=False)
     return _drive_by_largest(heading, values, largest)
+
+
+def _drive_but_for(stray: Bools, heading: Heading, values: Floats, largest: float) -> Drive | None:
+    """What asks for the full duty where stray rows, of shape (K,), would decide; None where all others say the same."""
+    without = duty_drive(heading, values[~stray])
+    if without.full == _drive_by_largest(heading, values, largest).full:
+        return None
+    usual, number = float(np.max(np.abs(values[~stray]))), np.count_nonzero(stray)
+    rows = "one, which is" if number == 1 else f"{number}, which are up to"
+    doubt = f", up to {usual:g} in all rows but {rows} {largest:g}"
+    return Drive(None, f"as a duty of ±{largest:g}", without.full or largest, sure=False, doubt=doubt)
 
 
 def _pulse_drive(heading: Heading, values: Floats, largest: float) -> Drive | None:
@@ -145,7 +162,7 @@ def _bits_by_name(words: tuple[str, ...], largest: float) -> int:
     `pwm 12 bit` does; `pwm10` may be a pin, whose 8 bits end at 255: beyond them 10 are meant.
     """
     told = [int(one) for one, unit in zip(words, words[1:], strict=False) if unit in _BITS and one in _TIMERS]
-    if not told and words[-1:] == ("10",) and words[-2:-1] and words[-2] in _TIMED and largest > BITS_8:
+    if not told and words[-1:] == ("10",) and words[-2:-1] and words[-2] in _TIMED and largest > _BITS_8:
         told = [10]
     return told[0] if len(told) == 1 and 1.0 < largest <= 2.0 ** told[0] - 1.0 else 0
 
@@ -184,7 +201,8 @@ def _drive_of_hundred(heading: Heading, values: Floats) -> Drive:
         "as a duty of ±100 (assumed, as none is larger and nothing says per cent; if full duty is 255, say "
         "--full-duty 255: voltages are 2.55 times too large else)"
     )
-    return Drive(None, why, HUNDRED, sure=len(levels) > 1 or bool(_PER_CENT & set(heading.words)))
+    sure = len(levels) > 1 or bool(_PER_CENT & set(heading.words))
+    return Drive(None, why, HUNDRED, sure, doubt=_OF_BOTH.format(HUNDRED))
 
 
 def _drive_below_hundred(values: Floats) -> Drive:
@@ -193,10 +211,11 @@ def _drive_below_hundred(values: Floats) -> Drive:
     A controller of 8 bits computes any whole number; one that computes per cent has fractions.
     """
     why = (
-        f"as a duty of ±{BITS_8:g} (assumed, as they are whole numbers; if they are per cent, say --full-duty 100: "
+        f"as a duty of ±{_BITS_8:g} (assumed, as they are whole numbers; if they are per cent, say --full-duty 100: "
         "voltages are 2.55 times too small else)"
     )
-    return Drive(None, why, BITS_8, sure=bool(np.any(values % _CHOSEN)))
+    largest = float(np.max(np.abs(values), initial=0.0))
+    return Drive(None, why, _BITS_8, sure=bool(np.any(values % _CHOSEN)), doubt=_OF_BOTH.format(largest))
 
 
 def _why_in_volts(heading: Heading, values: Floats, largest: float) -> str:
@@ -218,7 +237,7 @@ def _is_cut_off(values: Floats) -> bool:
 def _is_mains(values: Floats, largest: float) -> bool:
     """Whether what is called a voltage, shape (K,), is a large machine's: beyond 8 bits, and on it never swings."""
     on = values[values != 0.0]
-    return largest > BITS_8 and largest not in FULL_DUTIES and bool(np.all(on >= _STEADY_SUPPLY * largest))
+    return largest > _BITS_8 and largest not in FULL_DUTIES and bool(np.all(on >= _STEADY_SUPPLY * largest))
 
 
 def _is_odd_timer(largest: float) -> bool:

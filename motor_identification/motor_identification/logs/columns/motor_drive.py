@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from motor_identification.logs.columns.behaviour.codes import find_codes
 from motor_identification.logs.columns.cautions import ROUNDED
-from motor_identification.logs.columns.drive import BITS_8, HUNDRED, Drive, duty_drive, voltage_drive
+from motor_identification.logs.columns.drive import Drive, duty_drive, voltage_drive
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.roles.roles import Roles
@@ -37,8 +37,7 @@ def read_drive(table: Table, pair: Pair, roles: Roles, said: Said, notes: Notes)
         return drive, 1.0, roles.supply
     if not drive.sure:
         beside = "" if said.supply_voltage or roles.supply else " and the voltage there (--supply-voltage V)"
-        either = _which(full, float(np.max(np.abs(_duties(table, pair, roles)), initial=0.0)))
-        question = f"is a duty{either}: say what it is at full duty (--full-duty D){beside}"
+        question = f"is a duty{drive.doubt}: say what it is at full duty (--full-duty D){beside}"
         notes.questions.append((pair.voltage, question))
         return drive, 1.0, roles.supply
     if said.supply_voltage:
@@ -51,11 +50,6 @@ def read_drive(table: Table, pair: Pair, roles: Roles, said: Said, notes: Notes)
         why = f"is {values[0]:g} in every row; if no controller's target, but {why.removeprefix('as ')}"
     notes.questions.append((pair.voltage, f"{why}: say the voltage at full duty (--supply-voltage V)"))
     return drive, 1.0, None
-
-
-def _which(full: float, largest: float) -> str:
-    """Say which full duties the largest of all motors cannot tell apart: per cent, and a register of 8 bits."""
-    return f", {largest:g} of 100 or of 255" if full in (HUNDRED, BITS_8) else ""
 
 
 def _is_beyond(heading: Heading, values: Floats, supply: float | None) -> bool:

@@ -1,16 +1,21 @@
-"""Mends a table as loggers leave it: a few garbled rows are left out, rows that come newest first are turned round."""
+"""Mends a table as loggers leave it.
+
+A few garbled rows are left out, rows that come newest first are turned round, points that were lost are put back.
+"""
 
 import re
 from dataclasses import replace
 
 import numpy as np
 
+from motor_identification.logs.columns.behaviour.stray_rows import restore_points
 from motor_identification.logs.columns.clock import read_clock, runs_forward
 from motor_identification.logs.columns.heading import read_heading
 from motor_identification.logs.columns.vocabulary import UNIT_BY_SPELLING, Quantity
 from motor_identification.logs.csv.sparse import mark_empty, mark_rare_senders
 from motor_identification.logs.csv.table import GARBLED, Table, name_column
 
+_MAY_LOSE_POINTS = (Quantity.VOLTAGE, Quantity.DUTY, Quantity.SUPPLY, Quantity.SPEED, Quantity.REFERENCE)
 _WITH_UNIT = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?) ?([^\W\d_][\w/]{0,9}|%|°)$")
 _LOOKED_AT = 200  # cells that tell whether a column holds numbers at all
 
@@ -32,8 +37,8 @@ def take_off_units(table: Table) -> Table:
 
 
 def mend_table(table: Table) -> Table:
-    """Leave out garbled rows, where they are few, and put the rows in the order of their times."""
-    return _turn_round(_leave_out_garbled(table))
+    """Leave out garbled rows, where they are few, put the rows in the order of their times, and lost points back."""
+    return _restore_points(_turn_round(_leave_out_garbled(table)))
 
 
 def _leave_out_garbled(table: Table) -> Table:
@@ -72,3 +77,21 @@ def _turn_round(table: Table) -> Table:
         if len(times) and runs_forward(times[::-1]) and times[0] > times[-1]:
             return table.rows(np.arange(len(table))[::-1], f"The rows come newest first ({name}): turned round.")
     return table
+
+
+def _restore_points(table: Table) -> Table:
+    cells, notes = dict(table.cells), list(table.notes)
+    for name in table.names:
+        if read_heading(name).quantity not in _MAY_LOSE_POINTS or not table.readable(name).all():
+            continue
+        values = table.numbers(name)
+        mended, which = restore_points(values)
+        if which.any():
+            cells[name], row = mended, int(np.argmax(which))
+            more = f", and {which.sum() - 1} more" if which.sum() > 1 else ""
+            beside = f"between {values[row - 1]:g} and {values[row + 1]:g}"
+            notes.append(
+                f"Line {table.lines[row]}, {name_column(name)}: {values[row]:g} {beside} lost its point, and is taken "
+                f"for {mended[row]:g} (assumed){more}."
+            )
+    return replace(table, cells=cells, notes=tuple(notes)) if len(notes) > len(table.notes) else table

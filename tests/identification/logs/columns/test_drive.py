@@ -276,3 +276,27 @@ def test_the_bits_of_a_timer_by_a_name(name: str, top: float, full: float) -> No
     drive = duty_drive(read_heading(name), values)
     assert (drive.full, drive.sure) == (full, True)
     assert duty_drive(read_heading(name), values, 500.0).full == 500.0
+
+
+@pytest.mark.parametrize(
+    ("stray", "rest", "sure"),
+    [
+        (1902.0, 193.0, False),  # 255 but for it
+        (390.0, 193.0, False),
+        (380.0, 193.0, True),  # no more than twice all others: a step
+        (500.0, 193.0, False),
+        (1902.0, 600.0, False),
+        (900.0, 300.0, True),  # 1000 either way
+    ],
+)
+def test_one_row_decides_no_full_duty(stray: float, rest: float, sure: bool) -> None:
+    """One glitch in 3112 rows made a duty of 255 one of 4095, and each voltage 16 times too small."""
+    values = np.rint(rest - 40.0 * WAVE**2)
+    values[50:53] = rest
+    values[51] = stray
+    drive = duty_drive(read_heading("pwm"), values)
+    assert drive.sure is sure
+    assert sure or drive.doubt == f", up to {rest:g} in all rows but one, which is {stray:g}"
+    assert duty_drive(read_heading("pwm"), values, 255.0).sure
+    lasting = np.append(values, np.full(3, stray))
+    assert duty_drive(read_heading("pwm"), lasting).sure

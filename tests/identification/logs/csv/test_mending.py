@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from motor_identification.logs.csv.mending import mend_table, take_off_units
 from motor_identification.logs.csv.table import Table
@@ -53,3 +54,15 @@ def test_units_are_taken_off_cells_that_all_have_the_same() -> None:
     assert take_off_units(made(mode=["run 1", "run 2"], w=["3 furlongs", "4 furlongs"])).names == ["mode", "w"]
     many = take_off_units(made(t=[f"{k} sec" for k in range(300)] + ["end"]))
     assert many.names == ["t [s]"] and many.text("t [s]", 299) == "299" and many.text("t [s]", 300) == ""
+
+
+def test_a_point_that_a_drive_or_a_speed_lost_is_put_back_and_told() -> None:
+    times = [str(k) for k in range(200)]
+    values = [f"{190.0 + k % 3 / 10:g}" for k in range(200)]
+    broken = [*values[:10], "1901", *values[11:]]
+    for name, mends in (("pwm", True), ("speed [rpm]", True), ("angle [deg]", False), ("error", False)):
+        mended = mend_table(made(t=times, **{name: broken}))
+        assert mended.numbers(name)[10] == (pytest.approx(190.1) if mends else 1901.0)
+        about = "Line 12, column {}: 1901 between 190 and 190.2 lost its point, and is taken for 190.1 (assumed)."
+        assert mended.notes == ((about.format(name),) if mends else ())
+    assert not mend_table(made(t=times, pwm=values)).notes
