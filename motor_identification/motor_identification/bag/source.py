@@ -24,6 +24,10 @@ class Source:
     window: Window = Window()
     reader: Callable[[str], Recording] | None = None  # of bags of other robots; None: `motor/speed`
 
+    def __post_init__(self) -> None:
+        """Take the slash off that a shell puts behind a directory's name: sentences name a bag by its last part."""
+        object.__setattr__(self, "uris", tuple(uri.rstrip("/") or uri for uri in self.uris))
+
     def read(self, uri: str) -> Recording:
         """Read and check one of the bags.
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from itertools import pairwise
+from pathlib import PurePath
 
 import numpy as np
 
@@ -202,7 +203,7 @@ def describe_stopped(diagnosis: Diagnosis) -> str:
     found = find_stopped(recordings)
     if found is None:
         return ""
-    name = found.recording.uri.rsplit("/", 1)[-1]
+    name = PurePath(found.recording.uri).name
     where, how = (f" in {name}", f", of {name} alone") if len(recordings) > 1 else ("", "")
     return STOPPED.format(found.begin, where, how)
 

@@ -17,3 +17,8 @@ def test_a_bag_is_read_with_the_namespace_of_its_motor_and_within_the_window(tmp
     assert_is(Source((bag,), "left", Window(start)).read(bag), SAMPLES[21:100])
     with pytest.raises(RecordingError, match="/right/motor/speed"):
         Source((bag,), "right").read(bag)
+
+
+def test_a_bag_has_one_name_with_and_without_the_slash_that_a_shell_puts_behind_it() -> None:
+    """A sentence was "From 1.2 s on in  the motor stands", with no name in it."""
+    assert Source(("bags/step/", "bags/ramp", "/", "a//")).uris == ("bags/step", "bags/ramp", "/", "a")

@@ -272,6 +272,9 @@ def test_a_motor_that_was_switched_off_is_said_whatever_the_verdict(
     assert text.startswith(f"From 45.01 s on {said}") and "Leave that part out (--stop 45.01)." in text
     two = caveats_text.describe_stopped(replace(one, after=replace(one.after, recordings=(recording, recording))))
     assert two.startswith(f"From 45.01 s on in right {said}") and "out (--stop 45.01, of right alone)." in two
+    slash = Stopped(replace(recording, uri="logs/right/"), 45.014)  # as a shell completes a directory's name
+    monkeypatch.setattr(caveats_text, "find_stopped", lambda recordings: slash)
+    assert two == caveats_text.describe_stopped(replace(one, after=replace(one.after, recordings=(recording,) * 2)))
 
 
 @pytest.mark.parametrize(
