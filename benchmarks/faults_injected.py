@@ -12,6 +12,7 @@ from motor_control.controller import controller
 from motor_model.effects import INDEX
 
 TREMBLE = 0.001  # of a period, 1 σ, of hum
+SELDOM = 1.2  # [s] from a command of a sender to its next: one that has been silent for 0.5 s has ended
 SECOND, ASLEEP = 0.6, 2.0  # of the voltage, that another sender sends; [s]
 
 
@@ -123,6 +124,12 @@ def end_first_sender(loop: Loop) -> None:
     loop.second = -SECOND * loop.motor.voltage
     loop.run(1.0)
     loop.raw, loop.alive = None, False
+
+
+def send_by_turns(loop: Loop) -> None:
+    """The sender comes every 1.2 s from now on, and another one, for the other way, halfway; each has come twice."""
+    loop.second, loop.every = -SECOND * loop.motor.voltage, round(SELDOM * loop.rate)
+    loop.run(2.0 * SELDOM)
 
 
 def lose_link(loop: Loop) -> None:

@@ -60,6 +60,7 @@ class Loop:
     goes_on: float | None = None  # [rad/s] somebody answers every stop at once, and asks for this
     alternate: bool = False  # somebody asks for an angle before every other sample, and for the speed before the others
     second: float | None = None  # [V] that another sender sends beside the first one, with numbers far from its
+    every: int = 1  # samples from each command of that one, and of who sends `raw`, to its next; they send by turns
     deaf: bool = False  # no voltage reaches the plant, and who sends does not know
     asleep: float = 0.0  # [s] for which the controller's computer, and its clock, has stood still in all
 
@@ -121,12 +122,14 @@ class Loop:
         if self.goes_on is not None:
             self._go_on(self.goes_on)
         self._queue.append((self.time + self.delay, sample))
+        turn = self._samples % self.every
         if self.raw is not None:
-            self._command(-self.raw if self.to_and_fro and self._samples % 2 else self.raw)
+            if turn == 0:
+                self._command(-self.raw if self.to_and_fro and self._samples % 2 else self.raw)
             self._reason = ""
         elif self.alive:
             self._control()
-        if self.second is not None:
+        if self.second is not None and turn == self.every // 2:
             self._others += 1
             self.gate = self.gate.take(self.second, self._now, "", 10 * APART + self._others)
         said = self.gate.problem(self._now) or self._reason

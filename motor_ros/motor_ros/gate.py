@@ -2,15 +2,17 @@
 
     off      latched: by motor/enable with data: false, or by a stop; only motor/enable with data: true ends it
     waiting  on, but the sender began before the plant came up: 0 V until it sends 0 V, or motor/enable
-    driven   the newest voltage of one sender; another's are left aside until that one has been silent for HOLD
+    driven   the newest voltage of one sender; another's are left aside until that one has been silent for long enough
 
-Who was left aside beside another that drove has to begin at 0 V, too, once that one has ended: it is most often one
-that was forgotten, and the motor has just been stopped. So has who went on sending while nothing of it was heard for a
-second and more, because its link was away or the plant stood still: the motor has stood meanwhile, and nobody expects
-it to go on by itself.
+Long enough is HOLD, or as long as its latest voltage acts, or, of one that comes seldom, twice as long as it takes; for
+a 0 V it is HOLD. Whoever then takes its place is heard to begin, by its numbers, or has to begin at 0 V: it is most
+often one that was forgotten, and the motor has just been stopped. So has who was left aside beside another that drove,
+and who went on sending while nothing of it was heard for a second and more, because its link was away or the plant
+stood still: the motor has stood meanwhile, and nobody expects it to go on by itself.
 
 That there are two is known once the first is heard again after the other: one sender that was held up sends what it has
 missed all at once, more than is kept, and its numbers jump ahead as another's would. Its next numbers go on from there.
+Two that send so seldom that each takes the other's place are known as soon as one of them comes back: none drives.
 
 Two that call themselves the same are told apart by their numbers alone, and only where these are so far APART that
 neither can reach the other's while it is waited for. Where they are closer a message that is late, or lost, makes one
@@ -43,6 +45,7 @@ APART = round(HOLD / (CLOSEST * QUICKEST))  # numbers that no sender goes on by 
 AWAY = 1_000_000_000  # [ns] without a voltage, after which a motor that goes on by itself is a surprise
 UNHEARD = 10  # commands more than that are not lost to a plant that looks less often than they come: it heard none
 CALLS, PAUSE = 3, 500_000_000  # to switch on what is on, each within a PAUSE [ns] of the one before: no hand does that
+SELDOM = 10_000_000_000  # [ns] between two commands of a sender: two that send by turns are said for twice as long
 CONFLICT = 1_500_000_000  # [ns] for which a second sender is reported: longer than from one diagnostic to the next
 
 OFF = "The output is off: call motor/enable with data: true."
@@ -65,11 +68,20 @@ INSISTED = (
     "{:g} s, then call it."
 )
 TWO_SENDERS = (
-    "More than one node sends motor/voltage{}: only {} is obeyed, until it has been silent for {:g} s; end the others."
+    "More than one node sends motor/voltage{}: only {} is obeyed, until it has been silent for {:.3g} s; end the"
+    " others."
 )
 MIXED = (
     "More than one node sends motor/voltage{}, all with frame_id '{}', and whose command is whose cannot be told: the"
-    " motor gets 0 V; end all but one, and {:g} s later let that one send 0 V, or call motor/enable with data: true."
+    " motor gets 0 V; end all but one, and {:.3g} s later let that one send 0 V, or call motor/enable with data: true."
+)
+LEFT = (
+    "A voltage on motor/voltage (frame_id '{}') is left aside until who sent before (frame_id '{}') has been silent for"
+    " {:.3g} s, for that one comes seldom, or its latest voltage still acts: send 0 V first, which is obeyed sooner."
+)
+NONE_OBEYED = (
+    "More than one node sends motor/voltage{}: the motor gets 0 V until one of them sends 0 V, or motor/enable is"
+    " called with data: true; end the others."
 )
 NO_NUMBER = "{:g} on motor/voltage is not a number (frame_id '{}'{}): {}; send numbers, or end who sends it."
 GETS_NOTHING = "the motor gets 0 V until the next number"
@@ -93,21 +105,22 @@ class Gate:
     enabled: bool
     timeout: float  # [s] after which a command is stale
     sample_period: float = 0.0  # [s] of the plant; 0: not known
-    since: int = 0  # [ns] the plant came up, or its board did
+    since: int = 0  # [ns] the plant came up, or its board did, or who drove it before was heard for the last time
     switched: int = 0  # [ns] the user switched the output: no voltage that was sent before acts
     stopped: str = ""  # why the output was switched off; empty: by the user, or never
     faults: RepeatedStops = RepeatedStops()  # stops for what the motor did
     begun: bool = False  # the voltages have started from 0 V, or were allowed by motor/enable
-    handed: bool = False  # they have not, since one that was left aside took over
-    away: bool = False  # they have not, since one that was not heard for long, or heard that late, has gone on
+    barred: bool = False  # they have not, and only those two let them: of one that went on unheard, or left aside
+    waits: str = WAITING  # what is said of voltages that have not begun
     first: Sender | None = None  # the sender's first command that was heard since then
     command: float = 0.0  # [V]
     received: int | None = None  # [ns]
     sender: Sender | None = None  # of that command
+    former: Sender | None = None  # whose place the sender took just now: if it is heard again, both are there
     aside: Sender | None = None  # what tells most of those of its name that seemed another's, until it is heard again
     beside: Sender | None = None  # likewise the latest of another name
-    rival: Sender | None = None  # another sender's latest command that was left aside while both sent
-    rival_at: int = 0  # [ns] when the two had both been heard, or one of them was left aside since
+    rival: Sender | None = None  # another sender's latest command, while both sent
+    rival_until: int = 0  # [ns] so long both are taken to be there: they have been heard, or one was left aside since
     mixed: bool = False  # since both are heard, they have one name and close numbers
     refused: int = 0  # commands that were not numbers
     no_number: NoNumber | None = None  # the latest of those
@@ -130,59 +143,119 @@ class Gate:
         [ns] how long ago it was received: a plant that is held up takes it late, and it is as old as it is. `sent` [ns]
         is when it was sent, if known: what was on its way when the output was switched does not act.
         """
+        message = Sender(name, number, now, moves=voltage != 0.0)
         if not isfinite(voltage):
-            return self._refuse(voltage, now, name, number)
-        holder, what = self.sender, (voltage, now, name, number, waited, sent)
-        ours = holder is not None and holder.sent(name, number, now)
-        if holder is not None and now - holder.at <= HOLD and not ours:
-            return self._leave_aside(Sender(name, number, now, moves=voltage != 0.0))
-        unheard = holder is not None and self._goes_on_unheard(holder, ours, number, now)
-        if holder is not None and unheard and not ours:
-            return replace(self.come_up(holder.at), sender=None, away=True).take(*what)
-        told = self._tell_senders(number, now) if ours else replace(self, aside=None, beside=None)
-        mixed = told.mixed and told.conflict(now)
-        sender = holder.after(number, now) if holder is not None and ours else Sender(name, number, now)
-        first = self.first if ours and self.first is not None else sender
-        resumes = holder is not None and now - holder.at > HOLD and self._rivals_name(name) and self.conflict(now)
-        left = resumes or (not ours and self._was_left(name, number, now))
-        handed = mixed or (voltage != 0.0 and (self.handed or left))
-        begun = self.begun or voltage == 0.0 or _began(first, number, now, self.since, self.sample_period * 1e9)
-        begun = begun and not handed
+            return self._refuse(voltage, message)
+        holder = self.sender
+        if holder is None:
+            told, bar = replace(self, sender=message), ""
+        elif self._is_ours(message):
+            told, bar = self._go_on(holder, message), self._bar_own(holder, message)
+        elif self.waits_for_sender(now, message.moves):
+            return self._leave_aside(message)
+        else:
+            told, bar = self._hand_over(holder, message)
+        late = waited > max(AWAY, self.timeout * 1e9)
         received = now - waited if sent is None or sent >= self.switched else None
-        told = replace(told, command=voltage, received=received, sender=sender, first=first, handed=handed, mixed=mixed)
-        if voltage != 0.0 and (unheard or waited > max(AWAY, self.timeout * 1e9)):  # it began before, whatever its pace
-            return replace(told, first=replace(first, number=None), begun=False, away=True)
-        return replace(told, begun=begun)
+        return replace(told, command=voltage, received=received)._begin(message, AWAY_LINK if late else bar)
 
-    def _refuse(self, voltage: float, now: int, name: str, number: int | None) -> "Gate":
-        stops = self._may_be_obeyed(name, number, now)
-        told = replace(self, refused=self.refused + 1, no_number=NoNumber(voltage, name, now, stops))
-        return replace(told, command=0.0, received=None) if stops else told._leave_aside(Sender(name, number, now))
+    def _begin(self, message: Sender, bar: str) -> "Gate":
+        """Whether the voltages have begun, once the sender's latest is this one; `bar`: why they have not."""
+        first = self.first or message
+        if self.mixed and self.conflict(message.at):
+            return replace(self, first=first, mixed=True, begun=False, barred=True, waits=HANDED)
+        told = replace(self, first=first, mixed=False)
+        if not message.moves:
+            return replace(told, begun=True, barred=False)
+        if bar:
+            return replace(told, begun=False, barred=True, waits=bar)
+        begins = not self.barred and _began(first, message.number, message.at, self.since, self.sample_period * 1e9)
+        return replace(told, begun=self.begun or begins)
 
-    def _may_be_obeyed(self, name: str, number: int | None, now: int) -> bool:
+    def waits_for_sender(self, now: int, moves: bool = True) -> bool:
+        """Whether another's command at `now` [ns] is left aside; one that moves nothing, while it might be the last."""
+        holder = self.sender
+        return holder is not None and now - holder.at <= (self._patience if moves else HOLD)
+
+    @property
+    def _patience(self) -> int:
+        """How long [ns] another's voltage waits for the sender to be heard again.
+
+        Its latest one may act meanwhile, and who comes seldom, by its successive numbers, has not ended.
+        """
+        pace = min(self.sender.period, SELDOM) if self.sender is not None else 0
+        return max(HOLD, round(self.timeout * 1e9), 2 * pace)
+
+    def _is_ours(self, message: Sender) -> bool:
+        """Whether a message is the next one of the sender, and no likelier the next of another one that is known."""
+        holder = self.sender
+        if holder is None or not holder.goes_on_in(message):
+            return False
+        rival = self.rival if self.conflict(message.at) else None
+        return not any(holder.is_before(other, message) for other in (self.former, rival))
+
+    def _bar_own(self, holder: Sender, message: Sender) -> str:
+        """Why the sender that is obeyed has to begin again with a message; empty if it need not."""
+        if message.at - holder.at > self._patience and self._rivals_name(message.name) and self.conflict(message.at):
+            return HANDED
+        return AWAY_LINK if self._goes_on_unheard(holder.number or 0, message) else ""
+
+    def _goes_on_unheard(self, number: int, message: Sender) -> bool:
+        """Whether a sender, since its message of that number, has sent for long while nothing was heard."""
+        if self.sender is None or message.number is None:
+            return False
+        return message.at - self.sender.at > max(AWAY, self.timeout * 1e9) and message.number - number > UNHEARD
+
+    def _hand_over(self, holder: Sender, message: Sender) -> tuple["Gate", str]:
+        """Another takes the place of a sender that has been silent, and why it has to begin; empty if it is seen to.
+
+        Where the two have sent in turn, they are told as two that send at once.
+        """
+        now, former = message.at, self.former
+        newcomer = message.follow(self.aside).follow(self.beside)
+        unheard = self._goes_on_unheard(0, message)
+        told = replace(
+            self,
+            begun=self.begun and holder.at <= self.switched,  # whoever comes first after motor/enable
+            barred=False,
+            waits=AWAY_LINK if unheard else HANDED,
+            since=now if message.number is None else max(self.since, holder.at),
+            first=newcomer.first or newcomer,
+            sender=newcomer,
+            former=holder,
+            aside=None,
+            beside=None,
+        )
+        alike = former is not None and former.name == holder.name
+        if former is not None and former.goes_on_in(message) and (message.moves or alike):
+            until = now + max(CONFLICT, 2 * min(now - former.at, SELDOM))
+            return replace(told, rival=holder, rival_until=until, mixed=self._is_close(message)), HANDED
+        return told, HANDED if self._was_left(message) else ""
+
+    def _refuse(self, voltage: float, message: Sender) -> "Gate":
+        stops = self._may_be_obeyed(message)
+        told = replace(self, refused=self.refused + 1, no_number=NoNumber(voltage, message.name, message.at, stops))
+        return replace(told, command=0.0, received=None) if stops else told._leave_aside(message)
+
+    def _may_be_obeyed(self, message: Sender) -> bool:
         """Whether a command may be of the sender that is obeyed, also where it came sooner than its own would."""
         holder = self.sender
-        if holder is None or now - holder.at > HOLD:
+        if holder is None or not self.waits_for_sender(message.at, moves=False):
             return True
-        return name == holder.name and (number is None or holder.number is None or number > holder.number)
+        both = message.number is not None and holder.number is not None
+        return message.name == holder.name and (not both or (message.number or 0) > (holder.number or 0))
 
     def goes_on(self, name: str, number: int | None, now: int) -> bool:
         """Whether a command at `now` [ns] is the next one of the sender that is obeyed."""
-        holder = self.sender
-        return holder is not None and now - holder.at <= HOLD and holder.sent(name, number, now)
-
-    def _goes_on_unheard(self, holder: Sender, ours: bool, number: int | None, now: int) -> bool:
-        """Whether a sender, the latest or another, has sent for long while nothing was heard, and the motor stood."""
-        if number is None or now - holder.at <= max(AWAY, self.timeout * 1e9):
-            return False
-        return number - (holder.number or 0 if ours else 0) > UNHEARD
+        return self.waits_for_sender(now) and self._is_ours(Sender(name, number, now))
 
     def _leave_aside(self, message: Sender) -> "Gate":
         """A message that does not seem the sender's is left aside; as long as that goes on, the two are in conflict."""
-        seen = replace(self, rival_at=message.at if self.conflict(message.at) else self.rival_at)
+        again = max(self.rival_until, message.at + CONFLICT)
+        seen = replace(self, rival_until=again if self.conflict(message.at) else self.rival_until)
         if self.sender is None or message.name != self.sender.name:  # it does not hide who has the sender's name
-            return replace(seen, beside=message)
-        return replace(seen, aside=max(filter(None, (self.aside, message)), key=self._tells))
+            return replace(seen, beside=message.follow(self.beside))
+        return replace(seen, aside=max(filter(None, (self.aside, message.follow(self.aside))), key=self._tells))
 
     def _tells(self, message: Sender) -> tuple[bool, bool, bool, int, int]:
         """Rank what is left aside: what the sender has not sent, then what may be taken for its own, then the latest.
@@ -200,31 +273,34 @@ class Gate:
             return False
         return abs(holder.number - other.number) < APART
 
-    def _tell_senders(self, number: int | None, now: int) -> "Gate":
+    def _go_on(self, holder: Sender, message: Sender) -> "Gate":
         """The sender is heard again: what was left aside was another's, unless it was sent between its two commands."""
-        holder, heard = self.sender, replace(self, aside=None, beside=None)
-        seen = [one for one in (self.aside, self.beside) if one is not None and now - one.at <= HOLD]
-        others = [one for one in seen if holder is not None and not holder.sent_between(one, number)]
-        if holder is None or not others:
+        now = message.at
+        heard = replace(self, sender=holder.after(message.number, now), aside=None, beside=None)
+        if self.first and (message.number or 0) - (self.first.number or 0) > UNHEARD:
+            heard = replace(heard, former=None)  # it has ended: of two that send by turns one is soon heard again
+        seen = [one for one in (self.aside, self.beside) if one is not None and now - one.at <= self._patience]
+        others = [one for one in seen if not holder.sent_between(one, message.number)]
+        if not others:
             return heard
         other, again = others[0], self.conflict(now)
         mixed = (self._is_close(other) and (other.moves or again)) or (self.mixed and again)
         rival = self.rival if mixed and other.name != holder.name else other  # the two that are mixed are told
-        return replace(heard, rival=rival, rival_at=now, mixed=mixed)
+        return replace(heard, rival=rival, rival_until=now + max(CONFLICT, 2 * (now - holder.at)), mixed=mixed)
 
     def _rivals_name(self, name: str) -> bool:
         return self.rival is not None and self.rival.name == name
 
-    def _was_left(self, name: str, number: int | None, now: int) -> bool:
+    def _was_left(self, message: Sender) -> bool:
         """Whether who takes over was left aside before, as far as anybody can tell: just now, or by its numbers."""
         rival = self.rival
-        if rival is None or self.conflict(now):
+        if rival is None or self.conflict(message.at):
             return rival is not None
-        return number is not None and rival.number is not None and rival.sent(name, number, now)
+        return message.number is not None and rival.number is not None and rival.goes_on_in(message)
 
     def enable(self, on: bool, now: int = 0) -> "Gate":
         """Switch the output at `now` [ns], by the user's will; a command from before the switch never acts."""
-        on_from = replace(self, enabled=on, switched=max(self.switched, now), begun=on, handed=False, away=False)
+        on_from = replace(self, enabled=on, switched=max(self.switched, now), begun=on, barred=False)
         return replace(on_from, stopped="", command=0.0, received=None, no_number=None)
 
     def stop(self, why: str) -> "Gate":
@@ -248,7 +324,8 @@ class Gate:
 
     def come_up(self, now: int) -> "Gate":
         """The plant can drive the motor from now [ns] on: voltages have to begin at 0 V again."""
-        return replace(self, since=now, begun=False, handed=False, away=False, first=None, command=0.0, received=None)
+        told = replace(self, since=now, begun=False, barred=False, waits=WAITING, first=None)
+        return replace(told, command=0.0, received=None)
 
     def fresh(self, now: int) -> bool:
         """Whether there is a command at `now` [ns] that is not too old."""
@@ -262,7 +339,7 @@ class Gate:
 
     def conflict(self, now: int) -> bool:
         """Whether two senders have been heard just now [ns]."""
-        return self.rival is not None and now - self.rival_at <= CONFLICT
+        return self.rival is not None and now <= self.rival_until
 
     def problem(self, now: int, senders: str = "") -> str:
         """What is wrong, as a sentence; empty if nothing is. `senders` names the nodes that can send."""
@@ -282,7 +359,8 @@ class Gate:
         """Say that whose command is whose cannot be told at `now` [ns]; empty if it can."""
         if not self.mixed or not self.conflict(now) or self.rival is None:
             return ""
-        return MIXED.format(f" ({senders})" if senders else "", self.rival.name, CONFLICT * 1e-9)
+        among, until = f" ({senders})" if senders else "", self.rival_until - (self.sender.at if self.sender else now)
+        return MIXED.format(among, self.rival.name, max(until, CONFLICT) * 1e-9)
 
     def _tell_of_senders(self, now: int, senders: str) -> str:
         if mixed := self.tell_mixed(now, senders):
@@ -290,11 +368,24 @@ class Gate:
         if self.conflict(now):
             among = f" ({senders})" if senders else ""
             rival, sender = self.rival, self.sender
+            if self.enabled and not self.begun:
+                return NONE_OBEYED.format(among)
             obeyed = f"frame_id '{sender.name}'" if sender and rival and sender.name != rival.name else "the first"
-            return TWO_SENDERS.format(among, obeyed, HOLD * 1e-9)
+            return TWO_SENDERS.format(among, obeyed, self._patience * 1e-9)
+        if left := self._tell_left(now):
+            return left
         if self.enabled and not self.begun and self.fresh(now):
-            return (HANDED if self.handed else AWAY_LINK if self.away else WAITING).format(self.command)
+            return self.waits.format(self.command)
         return ""
+
+    def _tell_left(self, now: int) -> str:
+        """Say that a sender waits for another one that has not been heard for a while; empty if none does."""
+        waiting = [
+            one for one in (self.aside, self.beside) if one is not None and one.moves and now - one.at <= CONFLICT
+        ]
+        if self.sender is None or not waiting or not HOLD < now - self.sender.at <= self._patience:
+            return ""
+        return LEFT.format(waiting[0].name, self.sender.name, self._patience * 1e-9)
 
     def state(self, now: int) -> str:
         """In words, for diagnostics."""
@@ -309,7 +400,7 @@ def _began(first: Sender, number: int | None, now: int, since: int, sample_perio
     At its pace it has sent the commands that were not heard, too.
     """
     if first.number is None or number is None:
-        return now == first.at and now - since >= QUIET
+        return number is None and now == first.at and now - since >= QUIET
     if first.number == 1:
         return True
     listened = now - first.at

@@ -19,6 +19,9 @@ class Sender:
     at: int  # [ns] when it came
     period: int = 0  # [ns] the shortest between two with successive numbers; 0: not known
     moves: bool = True  # what it asks for moves something
+    first: "Sender | None" = (
+        None  # its first message that was heard, where that is another and it has gone on from there
+    )
 
     def sent(self, name: str, number: int | None, now: int) -> bool:
         """Whether a message that comes at `now` [ns] is this sender's next one, or a later one."""
@@ -37,6 +40,21 @@ class Sender:
             return True
         return self.number < message.number and (number is None or message.number < number)
 
+    def goes_on_in(self, message: "Sender") -> bool:
+        """Whether a message is this sender's next one, or a later one."""
+        return self.sent(message.name, message.number, message.at)
+
+    def is_before(self, other: "Sender | None", message: "Sender") -> bool:
+        """Whether another of this sender's name is nearer to a message, by its numbers."""
+        if other is None or other.name != message.name:
+            return False
+        return (self.number or 0) < (other.number or 0) < (message.number or 0)
+
+    def follow(self, before: "Sender | None") -> "Sender":
+        """This message, with what was heard first, where it goes on from the one before."""
+        goes_on = before is not None and before.goes_on_in(self)
+        return replace(self, first=before.first or before) if before is not None and goes_on else self
+
     def after(self, number: int | None, now: int) -> "Sender":
         """This sender after one more message.
 
@@ -44,6 +62,6 @@ class Sender:
         messages come as quickly as ever, and some of them are lost.
         """
         if number is None or self.number is None or number != self.number + 1:
-            return Sender(self.name, number, now, self.period)
+            return replace(self, number=number, at=now)
         took = max(now - self.at, QUICKEST)
         return replace(self, number=number, at=now, period=min(took, self.period or took))

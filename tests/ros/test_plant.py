@@ -17,7 +17,7 @@ from motor_model.sample import Info, Sample
 from motor_msgs.msg import MotorInfo, MotorVoltage
 from motor_ros import qos
 from motor_ros.clocks.hold_ups import STOOD_STILL, HoldUps
-from motor_ros.gate import CONFLICT, Gate
+from motor_ros.gate import Gate
 from motor_ros.graph.acquaintances import Verdict
 from motor_ros.messages import info_message, time_message
 from motor_ros.plant import STAYS, Plant
@@ -120,7 +120,7 @@ def test_nobody_switches_on_while_two_senders_cannot_be_told_apart(bench: Bench)
     success, said = asked(plant, True)
     assert not success and said.startswith(f"{STAYS[True]} More than one node sends motor/voltage")
     assert asked(plant, False)[0]
-    plant.gate = replace(plant.gate, rival_at=now - CONFLICT)
+    plant.gate = replace(plant.gate, rival_until=now)
     assert asked(plant, True)[0]
 
 

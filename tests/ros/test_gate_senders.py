@@ -1,0 +1,228 @@
+"""Several senders of one motor, however seldom each of them sends: one of them drives, or none, and it is said."""
+
+from collections.abc import Iterator
+from random import Random
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from motor_ros.gate import CONFLICT, HOLD, SELDOM, UNHEARD, Gate
+
+MS = 1_000_000  # [ns]
+T0 = 5_000_000_000_000  # [ns]
+VOLTS = 6.0, -6.0, 3.0  # [V] each sender its own, so that its voltage tells whose it is
+Message = tuple[int, int, float, int]  # [ns], which sender, [V], number
+
+
+def gate(timeout: float = 0.1) -> Gate:
+    return Gate(True, timeout, 0.005).come_up(T0 - 3_000 * MS)
+
+
+@st.composite
+def senders(draw: st.DrawFn) -> list[list[Message]]:
+    """Two or three that send at any pace from 5 ms to 12 s, evenly or not, over a lossy link."""
+    streams = []
+    for who in range(draw(st.integers(2, 3))):
+        period = 5.0 * 2400.0 ** draw(st.floats(0.0, 1.0))  # [ms]
+        start, first = draw(st.floats(0.0, 3.0)) * period, draw(st.just(1) | st.integers(2, 5_000))
+        uneven, loss = draw(st.sampled_from([0.0, 0.1, 0.4])), draw(st.sampled_from([0.0, 0.05, 0.3]))
+        volts, begins = draw(st.sampled_from([VOLTS[who], VOLTS[who], 0.0])), draw(st.booleans())
+        chance = Random(draw(st.integers(0, 10**6)))
+        stream = []
+        for k in range(60 if period > 100.0 else 400):
+            at = T0 + int((start + k * period + chance.uniform(0.0, uneven) * period) * MS)
+            if chance.random() >= loss:
+                stream.append((at, who, 0.0 if begins and k == 0 else volts, first + k))
+        assume(stream)
+        streams.append(stream)
+    return streams
+
+
+def played(plant: Gate, streams: list[list[Message]], names: str) -> Iterator[tuple[Message, Gate]]:
+    """What each message makes of the plant, while all of them still send."""
+    end = min(stream[-1][0] for stream in streams)
+    for message in sorted(message for stream in streams for message in stream if message[0] <= end):
+        at, who, volts, number = message
+        plant = plant.take(volts, at, names[who], number)
+        yield message, plant
+
+
+@settings(deadline=None, max_examples=150)
+@given(senders(), st.sampled_from([0.1, 0.5, 1.0, 2.0, 10.0]), st.sampled_from(["abc", "aaa"]))
+def test_of_several_that_go_on_at_whatever_rates_one_drives_or_none(
+    streams: list[list[Message]], timeout: float, names: str
+) -> None:
+    """From when each has been heard three times, whatever the frame_ids, numbers, paces and losses."""
+    heard, drove = [0] * len(streams), set()
+    for message, plant in played(gate(timeout), streams, names):
+        heard[message[1]] += 1
+        if min(heard) >= 3:
+            drove |= {plant.voltage(message[0])} - {0.0}
+    assert len(drove) <= 1
+
+
+@settings(deadline=None, max_examples=150)
+@given(senders(), st.sampled_from([0.1, 0.5, 1.0, 2.0, 10.0]))
+def test_no_voltage_follows_another_senders_while_that_one_acts(streams: list[list[Message]], timeout: float) -> None:
+    """From the first command on: one drives after another only once that one's latest is stale, and 0.5 s old."""
+    driver, until = 0.0, 0
+    for message, plant in played(gate(timeout), streams, "abc"):
+        voltage = plant.voltage(message[0])
+        if voltage not in (0.0, driver):
+            assert message[0] > until
+        if voltage and plant.received is not None:
+            driver, until = voltage, plant.received + max(HOLD, round(timeout * 1e9))
+
+
+def in_turn(period: int, names: str, zeros: int, shift: int = 0) -> list[list[Message]]:
+    """Two that send every `period` ms, half of it apart, so many times 0 V first; the second so many numbers ahead."""
+    streams: list[list[Message]] = []
+    for who in range(2):
+        times = [T0 + (300 + k * period + who * (period // 2 + 13)) * MS for k in range(25)]
+        streams.append([(at, who, VOLTS[who] * (k >= zeros), 1 + k + who * shift) for k, at in enumerate(times)])
+    return streams
+
+
+@pytest.mark.parametrize("timeout", [0.1, 1.0, 2.0, 10.0])
+@pytest.mark.parametrize("period", [550, 700, 1_000, 1_200, 2_000, 5_000])
+@pytest.mark.parametrize("names", ["ab", "aa"])
+@pytest.mark.parametrize("zeros", [0, 1])
+def test_two_that_send_seldom_do_not_drive_by_turns_and_it_is_said(
+    period: int, names: str, zeros: int, timeout: float
+) -> None:
+    """6 V and -6 V, each every 1.2 s, drove by turns where `command_timeout` was 1 s: 47 reversals in 28 s, all OK."""
+    turns, last, said = 0, 0.0, 0
+    for message, plant in played(gate(timeout), in_turn(period, names, zeros), names):
+        voltage = plant.voltage(message[0])
+        turns, last = turns + (voltage * last < 0.0), voltage or last
+        said = said + 1 if "More than one node" in plant.problem(message[0]) else 0
+    assert turns <= (1 if names == "ab" else 2)  # what comes first may have ended, until it is heard again
+    assert said > 25
+
+
+@pytest.mark.parametrize("shift", [0, 1, 3, 40, 500])
+@pytest.mark.parametrize("period", [700, 1_200, 4_000])
+def test_the_0_volt_of_one_lets_no_other_of_its_name_go_on_however_seldom_they_send(period: int, shift: int) -> None:
+    streams = in_turn(period, "aa", 0, shift)
+    streams[0] = [(at, who, 0.0, number) for at, who, _, number in streams[0]]
+    drove = [plant.voltage(message[0]) for message, plant in played(gate(), streams, "aa")]
+    assert set(drove[6:]) == {0.0}
+
+
+@pytest.mark.parametrize("period", [700, 1_200, 5_000])
+@pytest.mark.parametrize("names", ["ab", "aa"])
+def test_one_whose_pace_is_known_goes_on_beside_another_however_seldom_it_sends(names: str, period: int) -> None:
+    """Five commands, then the other begins, far ahead: it was taken for the next one, as the first was silent."""
+    first = [(T0 + k * period * MS, 0, 6.0, 1 + k) for k in range(25)]
+    second = [(T0 + (4 * period + k * period + period // 2) * MS + k, 1, -6.0, 9_000 + k) for k in range(20)]
+    for message, plant in played(gate(0.5 * period * 1e-3), [first, second], names):
+        assert plant.voltage(message[0]) != -6.0
+        assert message[1] == 1 or plant.voltage(message[0]) == 6.0
+        assert message[0] < T0 + 6 * period * MS or "More than one node" in plant.problem(message[0])
+
+
+@pytest.mark.parametrize("gap", [400, 450, 510, 600, 800, 950, 1_010, 2_000, 30_000])
+@pytest.mark.parametrize("number", [60, 1_000])
+@pytest.mark.parametrize("name", ["a", "b"])
+def test_who_was_not_seen_to_begin_begins_at_0_volt_in_the_place_of_another(name: str, number: int, gap: int) -> None:
+    """At 50 Hz, from long before, it drove at once where it was first heard 0.5 to 1 s after the one before."""
+    plant, numbers = gate(), 3_000 if name == "a" else 1
+    for k in range(20):
+        plant = plant.take(6.0 * (k > 0), T0 + 20 * k * MS, "a", numbers + k)
+    begin, at = T0 + (380 + gap) * MS, 0
+    for k in range(200):
+        at = begin + 20 * k * MS
+        plant = plant.take(-6.0, at, name, number + k)
+        assert plant.voltage(at) != -6.0
+    assert plant.problem(at).startswith("-6 V w")
+    plant = plant.take(0.0, at + 20 * MS, name, number + 200).take(-6.0, at + 40 * MS, name, number + 201)
+    assert plant.voltage(at + 40 * MS) == -6.0
+
+
+@pytest.mark.parametrize("lost", [0, 1, 4])
+@pytest.mark.parametrize("period", [5, 20, 50])
+@pytest.mark.parametrize("gap", [100, 600, 5_000])
+@pytest.mark.parametrize("name", ["", "b"])
+def test_who_is_seen_to_begin_drives_in_the_place_of_one_that_has_ended(
+    name: str, gap: int, period: int, lost: int
+) -> None:
+    """A program that is ended and started again with 6 V, or another one; its first commands may be lost."""
+    plant, acts = gate(), None
+    for k in range(500):
+        plant = plant.take(6.0 * (k > 0), T0 + period * k * MS, "", 1 + k)
+    ended = T0 + 499 * period * MS
+    for k in range(lost, 400):
+        at = ended + (gap + period * k) * MS
+        plant = plant.take(-6.0, at, name, 1 + k)
+        assert "More than one" not in plant.problem(at)
+        acts = at if acts is None and plant.voltage(at) == -6.0 else acts
+    assert acts is not None and acts - ended <= max(HOLD, gap * MS) + (60 + (lost + 2) * period) * MS
+
+
+@settings(deadline=None, max_examples=200)
+@given(
+    st.floats(0.0, 1.0),
+    st.sampled_from([0.0, 0.1, 0.4]),
+    st.floats(0.0, 0.6),
+    st.integers(0, 10**6),
+    st.sampled_from([0.1, 1.0, 10.0]),
+)
+def test_one_alone_is_obeyed_at_any_rate_however_many_of_its_messages_are_lost(
+    pace: float, uneven: float, loss: float, seed: int, timeout: float
+) -> None:
+    """From 1 ms to 12 s; a link that was away for a second and more than ten messages is another matter."""
+    period = 12_000.0**pace  # [ms]
+    plant, last, chance = gate(timeout), 0, Random(seed)
+    for k in range(300):
+        at = T0 + int((k + uneven * chance.random()) * period * MS)
+        full = k - last >= UNHEARD
+        if k and chance.random() < loss and not full:
+            continue
+        plant, last = plant.take(6.0, at, "", 1 + k), k
+        late = k and plant.sender is not None and plant.sender.number != 1 + k  # quicker than it has ever come
+        assert plant.voltage(at) == 6.0 or late
+        assert not plant.conflict(at) and not plant.mixed and not plant.barred
+
+
+@pytest.mark.parametrize("timeout", [0.1, 2.0, 10.0])
+def test_anothers_0_volt_stops_after_half_a_second_though_the_latest_voltage_still_acts(timeout: float) -> None:
+    """Whoever ends a sender and sends 0 V waits no longer than ever; to go on with a voltage the other one begins."""
+    plant = gate(timeout).take(0.0, T0, "a", 1).take(6.0, T0 + 5 * MS, "a", 2)
+    for after, acts in ((HOLD, True), (HOLD + 1, False)):
+        at = T0 + 5 * MS + after
+        stopped = plant.take(0.0, at, "b", 700)
+        assert (stopped.voltage(at) == 6.0) is (acts and timeout > 0.5)
+        gone_on = stopped.take(-6.0, at + MS, "b", 701)
+        assert (gone_on.voltage(at + MS) == -6.0) is not acts
+
+
+@pytest.mark.parametrize(("timeout", "period"), [(0.1, 0), (2.0, 0), (0.1, 1_500), (0.1, 15_000)])
+def test_who_waits_for_one_that_comes_seldom_is_told_for_how_long(timeout: float, period: int) -> None:
+    plant = gate(timeout)
+    for k in range(3):
+        plant = plant.take(6.0, T0 + k * (period or 5) * MS, "a", 1 + k)
+    ended = T0 + 2 * (period or 5) * MS
+    patience = max(HOLD, round(timeout * 1e9), 2 * min(period * MS, SELDOM))
+    told = [False, False]
+    for k in range(patience // (50 * MS) + 40):
+        at = ended + 50 * (k + 1) * MS
+        plant = plant.take(-6.0, at, "b", 1 + k)
+        assert (plant.voltage(at) == -6.0) is (at > ended + patience)
+        said = plant.problem(at)
+        assert said.startswith("A voltage on motor/voltage (frame_id 'b') is left aside until") is (
+            ended + HOLD < at <= ended + patience
+        )
+        told[at > ended + HOLD] |= f"has been silent for {patience * 1e-9:.3g} s" in said
+    assert told == [False, patience > HOLD]
+
+
+def test_of_two_that_take_turns_at_0_volt_none_is_said_to_send_beside_the_other() -> None:
+    """A controller that is idle while an experiment drives, and drives again: each begins at 0 V."""
+    plant, now, numbers = gate(), T0, {"a": 1, "b": 1}
+    for turn in range(6):
+        name, now = "ab"[turn % 2], now + 2 * CONFLICT
+        for k in range(100):
+            plant, now = plant.take(6.0 * (k > 0), now, name, numbers[name]), now + 5 * MS
+            numbers[name] += 1
+            assert plant.voltage(now) == 6.0 * (k > 0) and not plant.problem(now)
