@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from motor_identification.logs.correlation import correlate
+from motor_identification.logs.rows.drive.braking_loop import brakes
 from motor_identification.logs.signals import Signals
 
 # Of the motion, weighted by voltage, as `measurement/sanity_checks.py` has it: braking and coasting leave more than
@@ -31,7 +32,7 @@ def _goes_against(signals: Signals, is_speed: bool) -> bool:
     """Decide whether a motion goes against the voltage: from row to row, or over as many as noise leaves to see."""
     rows, told, noisy = 1, *_compare(signals, is_speed, 1)
     if told < AGAINST or is_speed:
-        return told < AGAINST and not (is_speed and _stands(signals))
+        return told < AGAINST and not (is_speed and (_stands(signals) or brakes(signals)))
     while noisy and 2 * rows * FEWEST <= len(signals):
         rows *= 2
         told, noisy = _compare(signals, is_speed, rows)
