@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, replace
 from math import tau
+from shlex import quote
 
 import numpy as np
 from numpy.typing import NDArray
@@ -75,7 +76,7 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
     pair, said, instead = _choose_motion(table, pair, roles, said, rows, stamps)
     said = say_turn_counts(table, pair, stamps, said, notes)
     if not instead and (speed := find_speed_with_unit(table, pair, said, rows.spacing, stamps)):
-        instead = f", as nothing tells the unit of {pair.motion} (otherwise: --position {pair.motion} --unit U)"
+        instead = f", as nothing tells the unit of {pair.motion} (otherwise: --position {quote(pair.motion)} --unit U)"
         pair = replace(pair, motion=speed)
     drive, scale, supply = read_drive(table, pair, roles, said, notes)
     driven = bool(pair.label or np.any(table.numbers(pair.voltage)))  # of several motors, one may not be
@@ -126,7 +127,7 @@ def _choose_motion(
     if counted is None:
         return pair, said, ""
     said = replace(said, kind=Kind.COUNT) if counted.whole else said
-    instead = f", of which {counted.speed} is the speed (otherwise: --speed {counted.speed})"
+    instead = f", of which {counted.speed} is the speed (otherwise: --speed {quote(counted.speed)})"
     return replace(pair, motion=counted.column), said, instead
 
 

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from shlex import quote
 
 import numpy as np
 
@@ -48,7 +49,8 @@ def ask_motion(
     driving = [one.name for one in headings if one.quantity in (Quantity.DUTY, Quantity.VOLTAGE)]
     each = ""
     if len(driving) == 1:
-        motors = " ".join(f"--motor {k}:{driving[0]},{name}" for k, name in enumerate(found[:2], start=1))
+        said = [quote(f"{k}:{driving[0]},{name}") for k, name in enumerate(found[:2], start=1)]
+        motors = " ".join(f"--motor {one}" for one in said)
         each = f" For a motor of each: {motors}{' …' if len(found) > 2 else ''}"
     if quantity is None:
         return RecordingError(f"{ask_column(table, 'motion', '--speed, --position or --count', found)}{each}")
@@ -112,7 +114,7 @@ def miss_drive(table: Table) -> RecordingError:
     if told := _find_reference(table):
         heading = read_heading(told)
         of_motion = bool(heading.unit) or any(WORDS[kind] & set(heading.words) for kind in MOVES)  # setpoint_rpm
-        itself = f"where {told} itself went to it, say --voltage {told}"
+        itself = f"where {told} itself went to it, say --voltage {quote(told)}"
         return RecordingError(
             f"{table.path}: no column is the voltage or duty. {told} is what a controller was told, and what it gave "
             "to the motor is not there: log that, too; or "

@@ -30,6 +30,13 @@ def test_twelve_names_are_shown_and_those_that_the_import_made_are_not() -> None
     assert str(ask_column(TABLE, "supply", "--supply", [ROW_TIMES, *names[:SHOWN]])).endswith(", c11.")
 
 
+def test_names_with_spaces_are_quoted_in_the_options_that_a_user_copies() -> None:
+    """A shell took `--motor 1:PWM (%),Wheel speed (rad/s)` apart."""
+    headings = [read_heading(name) for name in ("PWM (%)", "w1", "w2")]
+    asked = str(ask_motion(TABLE, headings, Quantity.SPEED, ["w1", "w2"]))
+    assert asked.endswith("For a motor of each: --motor '1:PWM (%),w1' --motor '2:PWM (%),w2'")
+
+
 def test_several_motions_on_one_drive_may_be_motors_of_their_own() -> None:
     headings = [read_heading(name) for name in ("pwm", "w1", "w2")]
     asked = str(ask_motion(TABLE, headings, Quantity.SPEED, ["w1", "w2"]))

@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from shlex import quote
 
 import numpy as np
 from numpy.typing import NDArray
@@ -68,7 +69,7 @@ def read_motion(
         kind = guess_kind(values, table.numbers(pair.voltage)) if period else _guess_untimed_kind(values)
     if _is_speed_called_angle(heading, said) and is_speed_by_drive(values, table.numbers(pair.voltage)):
         why = f"assumed: {pair.motion} is a unit alone, and a speed that follows {pair.voltage}"
-        return Kind.SPEED, Unit(f"{heading.unit}/s", f"{why}; otherwise: --position {pair.motion}")
+        return Kind.SPEED, Unit(f"{heading.unit}/s", f"{why}; otherwise: --position {quote(pair.motion)}")
     unit = _unit(table, heading, kind, said, period, stamps)
     if unit.name == "count" and kind is Kind.POSITION and said.kind is None:
         kind = Kind.COUNT
@@ -141,7 +142,7 @@ def _ask_about(
             options += f", or of a slide in {SLIDES[kind]}"
         counted = kind is Kind.SPEED and not np.any(values % 1.0) and "count/s" not in unit.candidates
         size = "" if said.edges_per_revolution else " and --edges-per-revolution N"
-        counts = f", or --count {column}{size} where they are the counts of each row" if counted else ""
+        counts = f", or --count {quote(column)}{size} where they are the counts of each row" if counted else ""
         speed = f", or one of {', '.join(ASKED[Kind.SPEED])} to read {speed_beside} instead" if speed_beside else ""
         sized = " (count with --edges-per-revolution N)" if size and "count" in unit.candidates else ""
         question = f"in {options}, which the numbers do not tell: say --unit{sized}{speed}{counts}"

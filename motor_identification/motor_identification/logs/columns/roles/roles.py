@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from shlex import quote
 
 import numpy as np
 from numpy.typing import NDArray
@@ -243,5 +244,5 @@ def _of_one_shaft(
         return pairs, ()
     return (replace(pair, motion=speed),), (
         f"Left out: {pair.motion}, which is not the angle of what turns with {speed}, and does not follow "
-        f"{pair.voltage} (otherwise: --position {pair.motion}).",
+        f"{pair.voltage} (otherwise: --position {quote(pair.motion)}).",
     )
