@@ -144,7 +144,7 @@ def _choose_poles(likelihood: "Likelihood", simplest: str, are_open: bool) -> tu
     if tops[kind] == len(CLIMB) - 1:  # it goes on, and is no filter
         return None, False
     number = _find_peak(partial(likelihood.of_kind, kind), tops[kind])
-    number = _swap_poles(likelihood, number) if kind == MEMORY else number
+    number = _swap_poles(likelihood, number) if kind == MEMORY and number > 0.0 else number  # 0: none is likelier
     return (_make(kind, number) if number >= LEAST_SHARE or kind == BILINEAR else None), False
 
 

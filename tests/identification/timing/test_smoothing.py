@@ -40,7 +40,7 @@ from motor_identification.timing.smoothing import (
     _list_lattices,
     find_filter,
 )
-from motor_identification.timing.speed_filter import MEAN, MEMORY, SpeedFilter, parse_filter
+from motor_identification.timing.speed_filter import BILINEAR, MEAN, MEMORY, SpeedFilter, parse_filter
 from motor_identification.timing.speed_timing import find_timing
 from motor_identification.timing.timing import ASSUMED, INSTANT, OTHERS, Timing
 from motor_identification.uncertainty.result import Fit
@@ -323,6 +323,23 @@ def test_a_filter_that_goes_on_where_the_search_ends_is_none(best: float, found:
     passed, sure = _choose_poles(likelihood, MEMORY, are_open=True)
     assert (passed is not None) is found and not sure
     assert passed is None or passed.number == pytest.approx(best, abs=0.01)
+
+
+def test_no_memory_at_all_is_no_filter_behind_means_of_two_rows_that_are_less_likely() -> None:
+    """It was taken for a memory of 0, whose length in time has no logarithm: a mistake of the workbench."""
+    silent = cast(Shaper, SimpleNamespace(recordings=[without_count(as_speed(recorded(edges=96)))]))
+
+    class FewZeros(Likelihood):
+        def _measure(self, passed: SpeedFilter | None, beside: Sequence[str] = ()) -> float:
+            return 0.0 if passed is None else -1e3 * (1.0 + (passed.kind != MEMORY)) * passed.number
+
+        def keep_of_motor(self, passed: SpeedFilter | None) -> float:
+            assert passed is not None and passed.number > 0.0
+            return 0.5
+
+    likelihood = FewZeros(silent, ASSUMED)
+    likelihood.count = 1
+    assert _choose_poles(likelihood, BILINEAR, are_open=True) == (None, False)
 
 
 @pytest.mark.parametrize(("gain", "keeps", "share"), [(22.0, 0.8, 0.789), (18.0, 0.8, 0.42), (22.0, 0.3, 0.42)])
