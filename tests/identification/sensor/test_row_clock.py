@@ -84,6 +84,20 @@ def test_rows_that_are_missing_are_numbered_where_the_others_are_even(late: floa
         assert np.array_equal(number, np.flatnonzero(logged))
 
 
+@pytest.mark.parametrize(("late", "told"), [(0.1, True), (0.3, False)])
+@pytest.mark.parametrize("missing", [0, 10])
+def test_rows_that_are_missing_are_numbered_by_an_even_clock_where_stamps_are_off_by_less_than_half(
+    late: float, told: bool, missing: int
+) -> None:
+    """Steps between stamps that are off by a tenth of a row are no whole rows long; each is nearest to its own."""
+    random = np.random.default_rng(7)
+    stamps = PERIOD * (np.arange(2 * ROWS) + late * random.standard_normal(2 * ROWS))
+    logged = np.delete(np.arange(2 * ROWS), 150 * np.arange(1, missing + 1))
+    number = number_rows(np.sort(stamps)[logged])
+    assert (number is not None) is (told and missing > 0)
+    assert number is None or np.array_equal(number, logged)
+
+
 def test_no_row_is_missing_where_none_is_or_rows_are_uneven() -> None:
     random = np.random.default_rng(5)
     assert number_rows(PERIOD * np.arange(ROWS)) is None
