@@ -391,7 +391,14 @@ class Gate:
         """In words, for diagnostics."""
         if not self.enabled:
             return OFF
-        return "driven" if self.fresh(now) else "waiting for motor/voltage, 0 V"
+        if not self.fresh(now):
+            return "waiting for motor/voltage, 0 V"
+        return f"driven, and for {self.timeout:g} s more once who sends has died" if self.outlasts else "driven"
+
+    @property
+    def outlasts(self) -> bool:
+        """Whether a voltage acts for longer than any sender is held up: a motor runs on as long when one has died."""
+        return self.timeout * 1e9 > HOLD
 
 
 def _began(first: Sender, number: int | None, now: int, since: int, sample_period: float) -> bool:

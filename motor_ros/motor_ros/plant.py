@@ -34,6 +34,10 @@ OLD = (
     "{:.3g} V on motor/voltage is stamped {:.3g} s {}, as what is played from a recording: it is not obeyed. If it is "
     "yours, set both computers' clocks, or leave the stamp empty."
 )
+OUTLASTS = (
+    "command_timeout is {:g} s: once who sends motor/voltage has died, or its network, the motor gets its latest"
+    " voltage for as long. 0.1 s is usual."
+)
 STAYS = "The output stays off.", "The output is on, and the motor stays at 0 V."  # when a call is refused: off, on
 JUST_NOW = "Just now, {}: look, then call again."
 LOOK_FOR_CROWD_EVERY = 5_000_000_000  # [ns] it takes half a millisecond
@@ -83,6 +87,8 @@ class Plant:
         )
         service = node.create_service(SetBool, "motor/enable", self._on_enable)
         self._enabling = Callers(node).guard(service, self._would_switch_on, self._refuse)
+        if gate.outlasts:
+            node.get_logger().warning(OUTLASTS.format(gate.timeout))
         self.publish_info()
 
     def now(self) -> int:

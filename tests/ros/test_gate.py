@@ -458,6 +458,16 @@ def test_another_sender_that_sends_no_numbers_is_said_to_be_there_and_obeyed_onl
     assert plant.voltage(later) == 0.0 and plant.take(inf, later + MS, "hand", 91).voltage(later + MS) == 0.0
 
 
+@pytest.mark.parametrize(
+    ("timeout", "told"),
+    [(0.1, "driven"), (0.5, "driven"), (0.51, "driven, and for 0.51 s more once who sends has died")],
+)
+def test_a_voltage_that_acts_for_longer_than_a_sender_is_held_up_is_told(timeout: float, told: str) -> None:
+    """With 10 s for 10 ms the motor ran on for 10 s at 12 V once its sender had died, and nobody said so."""
+    plant = gate(timeout=timeout).take(0.0, T0).take(4.0, T0)
+    assert plant.state(T0) == told and plant.outlasts is (told != "driven")
+
+
 @pytest.mark.parametrize(("age", "acts"), [(100 * MS, True), (100 * MS + 1, False)])
 def test_a_command_is_stale_after_the_time_out(age: int, acts: bool) -> None:
     plant = gate().take(0.0, T0).take(4.0, T0)

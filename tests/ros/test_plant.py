@@ -46,6 +46,14 @@ def test_a_stop_that_is_due_comes_before_an_enable(bench: Bench) -> None:
     assert asked(plant, False) == (True, "The output is off: call motor/enable with data: true.")
 
 
+@pytest.mark.parametrize(("timeout", "warned"), [(0.1, False), (0.5, False), (10.0, True)])
+def test_a_plant_warns_of_a_voltage_that_outlives_its_sender(
+    bench: Bench, capfd: pytest.CaptureFixture[str], timeout: float, warned: bool
+) -> None:
+    Plant(bench.node, Info(), Gate(True, timeout))
+    assert ("command_timeout is 10 s: once who sends" in capfd.readouterr().err) is warned
+
+
 def test_what_keeps_the_output_off_is_said(bench: Bench) -> None:
     plant = Plant(bench.node, Info(), Gate(True, 0.1), refusal=lambda: "There is no link to the board yet.")
     why = "There is no link to the board yet."
