@@ -260,7 +260,7 @@ class Driver:
             self._halt(REPLAYED.format(session.port))
         if session.hear_switched(frame):
             self._halt(OTHERS.format(session.port))
-        if session.switch.hear(frame):
+        if session.switch.hear(frame, now, self.config.confirmation * 1e9):
             why = OTHERS.format(session.port) if session.disturbed else reason_off(frame)
             self._halt(why, motor=bool(frame.flags & Flag.OVERCURRENT))
         return [self._reading(session.exchange, self._readout, frame, now, restarted)]

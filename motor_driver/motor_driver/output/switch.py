@@ -47,21 +47,27 @@ class Switch:
         self._named: int | None = None  # latch in the latest enable, while turning on
         self._enables, self._since = 0, 0  # while turning on: how often that was asked for, and since when [ns]
         self._told = False  # while turning on: it was said what an enable is to name, which takes a while of its own
+        self._doubted = False  # while turning on: that was said, and did not hold: an off was still under way
+        self._off_at: int | None = None  # [ns] when it was last asked for to be off
 
     @property
     def listening(self) -> bool:
         """Whether the board may act on commands."""
         return self.output in (Output.ON, Output.TURNING_ON)
 
-    def hear(self, frame: Telemetry) -> bool:
-        """Take what the board says; True if it has switched off by itself."""
+    def hear(self, frame: Telemetry, now: int = 0, longest: float = 0.0) -> bool:
+        """Take what the board says at `now`; True if it has switched off by itself.
+
+        An off that was asked for in the `longest` [ns] before may still have been under way when it said that it is on.
+        """
         if frame.enabled:
             if self.output is Output.TURNING_ON:
                 self.output = Output.ON
             elif self.output is Output.OFF:
                 self._go(Output.TURNING_OFF)
             return False
-        fell = self.output is Output.ON or self._fell_unseen(frame)
+        asked = self._off_at is not None and now - self._off_at <= longest and not frame.flags & OWN_WAYS
+        fell = (self.output is Output.ON and not asked) or self._fell_unseen(frame)
         if fell or self.output is not Output.TURNING_ON:
             self.output = Output.OFF
         return fell
@@ -82,7 +88,9 @@ class Switch:
             return None
         self._asked = now
         if self.output is Output.TURNING_OFF:
+            self._off_at = now
             return Enable(0)
+        self._doubted = self._doubted or (named is None and self._told)
         if named is not None and not self._told:
             self._told, self._enables = True, 0
         self._enables, self._since = self._enables + 1, self._since if self._enables else now
@@ -98,8 +106,9 @@ class Switch:
         is longer.
         """
         turning_on = self.output is Output.TURNING_ON
-        most = longest if self._told else max(longest, telling)
+        most = longest if self._told and not self._doubted else max(longest, telling)
         return turning_on and self._enables >= ASKED and now - self._since > most
 
     def _go(self, output: Output) -> None:
-        self.output, self._asked, self._named, self._enables, self._told = output, None, None, 0, False
+        self.output, self._asked, self._named, self._enables = output, None, None, 0
+        self._told = self._doubted = False

@@ -183,3 +183,19 @@ def test_an_opening_that_resets_the_board_is_no_stop(make_rig: MakeRig) -> None:
     rig.emulator.reset()
     rig.until(lambda: rig.pins == 6.0, 900)
     assert rig.stops == []
+
+
+@pytest.mark.parametrize("first", [100, 150, 200])
+def test_to_switch_on_off_and_on_within_a_round_trip_is_no_stop(make_rig: MakeRig, first: int) -> None:
+    """The off was still under way when the board said that it was on: "the board switched off" was said of it."""
+    rig = make_rig(config=Config(command_timeout=0.3))
+    rig.faults, rig.voltage = Faults(delay=0.1), 6.0
+    rig.plug()
+    rig.until(lambda: rig.pins == 6.0, 4_000)
+    for on, wait in ((False, 500), (True, first), (False, 60), (True, 1_000)):
+        assert rig.enable(on) == ""
+        rig.run(wait)
+    assert rig.stops == [] and rig.gate.enabled and rig.pins == 6.0
+    rig.enable(False)
+    rig.run(200)
+    assert rig.pins == 0.0

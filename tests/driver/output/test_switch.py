@@ -110,6 +110,40 @@ def test_a_board_that_switches_off_by_itself_is_noticed_once() -> None:
     assert not switch.hear(enabled(False))
 
 
+MS = 1_000_000  # [ns]
+
+
+@pytest.mark.parametrize(("late", "falls"), [(400, False), (401, True)])
+def test_an_off_that_was_still_under_way_when_it_was_switched_on_again_is_no_fall(late: int, falls: bool) -> None:
+    """On, off and on within a round trip: the board said that it was on by the first, and was off by the second."""
+    switch = Switch()
+    assert switch.asks(True, TELEMETRY, 0) and switch.asks(False, TELEMETRY, 100 * MS) == Enable(0)
+    assert not switch.hear(enabled(False), 110 * MS, 400.0 * MS)
+    assert switch.asks(True, TELEMETRY, 150 * MS) and not switch.hear(enabled(), 200 * MS, 400.0 * MS)
+    off = replace(TELEMETRY, latch=TELEMETRY.latch + 1)
+    assert switch.hear(off, (100 + late) * MS, 400.0 * MS) is falls and switch.output is Output.OFF
+    assert switch.asks(True, off, 900 * MS) == Enable(1, off.boot, off.latch)  # where that is the user's wish
+
+
+@pytest.mark.parametrize("flag", [Flag.TIMED_OUT, Flag.OVERCURRENT, Flag.CURRENT_UNKNOWN])
+def test_what_a_board_says_of_its_own_fall_is_believed_beside_an_off_that_is_under_way(flag: Flag) -> None:
+    switch = Switch()
+    assert switch.asks(True, TELEMETRY, 0) and switch.asks(False, TELEMETRY, 100 * MS) == Enable(0)
+    assert not switch.hear(enabled(False), 110 * MS, 400.0 * MS)
+    assert switch.asks(True, TELEMETRY, 150 * MS) and not switch.hear(enabled(), 200 * MS, 400.0 * MS)
+    assert switch.hear(replace(TELEMETRY, flags=flag), 300 * MS, 400.0 * MS)
+
+
+@pytest.mark.parametrize(("doubted", "most"), [(False, 400), (True, 800)])
+def test_a_board_that_has_to_be_told_again_meanwhile_may_take_longer(doubted: bool, most: int) -> None:
+    """An off that was under way moved its latch after the first enable: it is told anew, and then asked once more."""
+    switch = Switch()
+    for k in range(most // 10 + 1):
+        switch.asks(True, None if doubted and 5 <= k < 50 else TELEMETRY, k * ASK_EVERY)
+        assert not switch.unheard(k * ASK_EVERY, 400.0 * MS, 800.0 * MS)
+    assert switch.unheard(most * MS + 1, 400.0 * MS, 0.0) and switch.unheard(most * MS + 1, 400.0 * MS, 800.0 * MS)
+
+
 @pytest.mark.parametrize("flag", [Flag.TIMED_OUT, Flag.OVERCURRENT, Flag.CURRENT_UNKNOWN])
 def test_a_board_that_was_on_and_off_again_in_frames_that_are_lost_is_not_asked_again(flag: Flag) -> None:
     switch = Switch()
