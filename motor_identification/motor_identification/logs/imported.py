@@ -93,6 +93,8 @@ def _read_motors(given: Table, said: Said) -> tuple[list[Motor], list[str]]:
     table, said = read_edge_periods(table, said)
     joined = table if said.motors else join_half_bridge(join_two_ways(table, said.voltage), said)
     filled = fill_gaps(read_pulses(joined, said))
+    if said.neutral is not None:  # then they are shares
+        said = replace(said, full_duty=1.0)
     guess = guess_forms(filled.table, said)
     motors = []
     for form in guess.forms:

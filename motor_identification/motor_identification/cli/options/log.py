@@ -102,6 +102,13 @@ def _add_meaning(parser: argparse.ArgumentParser) -> None:
     add("--unit", choices=units, help="of speeds or positions (default: by name, or by the encoder's steps)")
     add("--voltage-scale", type=_scale, metavar="V", help="volts per unit of the voltage column (default 1)")
     add("--full-duty", type=positive, metavar="D", help="the voltage column holds duties: this one is full duty")
+    add(
+        "--neutral",
+        type=positive,
+        metavar="N",
+        help="what the voltage column shows at 0 V, where that is not 0: 1500 or 1000 of an ESC's pulses, 127 of a "
+        "bridge that turns back below half; full voltage is --full-duty from there (default of pulses: at 2000 µs)",
+    )
     add("--supply-voltage", type=positive, metavar="V", help="voltage at full duty")
     _add_row_timing(add)
     add(

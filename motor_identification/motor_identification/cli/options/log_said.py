@@ -38,7 +38,9 @@ def _check_drive(parser: argparse.ArgumentParser, options: argparse.Namespace) -
     """Refuse what does not go together of how a column of voltages or duties is to be read."""
     if options.voltage_scale and (options.full_duty or options.supply or options.supply_voltage):
         parser.error("--voltage-scale does not go with --full-duty, --supply and --supply-voltage")
-    of_columns = ("voltage_scale", "full_duty", "supply", "supply_voltage", "direction")
+    if options.neutral and (options.voltage_scale or options.motor):
+        parser.error("--neutral is of one column of duties: it does not go with --voltage-scale and --motor")
+    of_columns = ("voltage_scale", "full_duty", "neutral", "supply", "supply_voltage", "direction")
     said = options.motor or options.steady or any(getattr(options, name) is not None for name in of_columns)
     if options.constant_voltage is not None and said:
         parser.error("--constant-voltage is in volts, of one motor in motion: leave out --motor, --steady and duties")

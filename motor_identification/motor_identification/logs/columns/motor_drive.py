@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from motor_identification.logs.columns.behaviour.codes import find_codes
 from motor_identification.logs.columns.cautions import ROUNDED
-from motor_identification.logs.columns.drive import Drive, duty_drive, voltage_drive
+from motor_identification.logs.columns.drive import Drive, are_pulses, duty_drive, voltage_drive
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.roles.roles import Roles
@@ -32,7 +32,8 @@ def read_drive(table: Table, pair: Pair, roles: Roles, said: Said, notes: Notes)
         return drive, drive.scale, None
     full = drive.full or 1.0
     if drive.full is None:
-        what = "say which column drives (--voltage COL), or what it is in volts (--voltage-scale V)"
+        of_pulses = "say which it is (--neutral N), " if are_pulses(heading, values) else "say "
+        what = f"{of_pulses}which column drives (--voltage COL), or what it is in volts (--voltage-scale V)"
         notes.questions.append((pair.voltage, f"{drive.why}: {what}"))
         return drive, 1.0, roles.supply
     if not drive.sure:

@@ -30,6 +30,7 @@ class Said:
     constant_voltage: float | None = None  # [V] in every row of a log without a column of it
     voltage_scale: float | None = None
     full_duty: float | None = None  # what the voltage column shows at full voltage
+    neutral: float | None = None  # what it shows at 0 V; full voltage is then so far from there
     supply: str | None = None
     supply_voltage: float | None = None  # [V] at full duty
     edges_per_revolution: int | None = None

@@ -34,13 +34,16 @@ def find_stray_rows(values: Floats) -> Bools:
 def restore_points(values: Floats) -> tuple[Floats, Bools]:
     """Give stray rows back a point that they lost: the numbers, shape (K,), and which were mended.
 
-    Whole numbers have none.
+    Whole numbers have none, and a number that is not whole has its own. A row that comes back to the very number before
+    it is a kick that somebody gave.
     """
     stray = find_stray_rows(values)
     if not stray.any() or not np.any(values[~stray] % 1.0):
         return values, np.zeros(len(values), np.bool_)
     mended = values.copy()
-    for row in np.flatnonzero(stray):
+    for row in np.flatnonzero(stray & (values % 1.0 == 0.0)):
+        if values[row - 1] == values[row + 1]:
+            continue
         beside = 0.5 * values[row - 1] + 0.5 * values[row + 1]
         for digits in range(1, LONGEST + 1):
             if abs(values[row] / 10.0**digits - beside) <= ALIKE * abs(beside):

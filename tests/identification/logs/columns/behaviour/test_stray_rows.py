@@ -31,7 +31,8 @@ def test_a_row_far_beyond_all_others_and_back_is_stray(values: np.ndarray, stray
 
 
 @pytest.mark.parametrize(
-    ("row", "mended"), [(1902.0, 190.2), (19012.0, 190.12), (190400.0, 190.4), (1850.0, 185.0), (1500.0, None)]
+    ("row", "mended"),
+    [(1902.0, 190.2), (19012.0, 190.12), (190400.0, 190.4), (1850.0, 185.0), (1500.0, None), (1902.5, None)],
 )
 def test_a_point_that_was_lost_is_put_back(row: float, mended: float | None) -> None:
     values = made(row)
@@ -43,4 +44,11 @@ def test_a_point_that_was_lost_is_put_back(row: float, mended: float | None) -> 
 def test_whole_numbers_have_no_point_to_lose() -> None:
     values = np.full(100, 19.0)
     values[20] = 190.0
+    assert not restore_points(values)[1].any() and find_stray_rows(values).sum() == 1
+
+
+@pytest.mark.parametrize(("kick", "level"), [(12.0, 1.2), (1.0, 0.1), (12.5, 1.25)])
+def test_a_kick_that_starts_a_motor_has_lost_no_point(kick: float, level: float) -> None:
+    values = np.full(100, level)
+    values[20] = kick
     assert not restore_points(values)[1].any() and find_stray_rows(values).sum() == 1
