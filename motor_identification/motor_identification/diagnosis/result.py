@@ -33,6 +33,9 @@ class Alternative:
     evidence: float  # logarithm of the likelihood ratio to the model without it, on held-out data
 
 
+NO_SIZE = 2.0  # standard errors of a size, within which of none it tells that something is there, and not how much
+
+
 @dataclass(frozen=True)
 class Finding:
     """An effect that was missing."""
@@ -52,7 +55,12 @@ class Finding:
 
     @property
     def has_size(self) -> bool:
-        """Whether the recordings determine any of its parameters."""
+        """Whether the recordings determine any of its parameters; and where there is but one, as more than none."""
+        own = [spec for spec in EFFECT_BY_NAME[self.effect].parameters if not spec.of_recording]
+        if len(own) == 1 and own[0].name in self.parameters:
+            value, error = self.parameters[own[0].name]
+            if isfinite(error) and abs(value - own[0].off) < NO_SIZE * error:
+                return False
         return not self.parameters or any(isfinite(error) for _, error in self.parameters.values())
 
 

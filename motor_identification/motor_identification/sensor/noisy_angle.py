@@ -1,7 +1,8 @@
 """Find angles whose noise is more than a count: of a potentiometer, a resolver, positions that were computed.
 
-A count of edges goes on or stands; only where the motor turns back does it step back, once for each time that its
-voltage swings to the other side. An angle with noise steps forward and back wherever the motor is slow.
+A count of edges goes on or stands; only where the motor turns does it step back. An angle with noise steps forward and
+back wherever the motor is slow. So does a motor that is driven to and fro within rows, and what it travels in rows that
+are not even looks like noise.
 """
 
 from dataclasses import dataclass
@@ -19,7 +20,7 @@ LEAST_NOISE = 0.6  # counts: twice what counting makes; a shaft that trembles on
 # is above the second. Measured: 0.06 in rows of 22 ms of a potentiometer, of which no fit came to anything.
 LEAST_TOLD, WELL_TOLD = 0.3, 1.0
 MOST_ROWS = 0.01  # of a recording that are averaged
-SWING = 0.25  # of the largest voltage: beyond it on either side a motor is driven round
+UNEVEN = 1.0  # times what uneven rows make of the travel: noise that is no more is rather that
 MOST_BACK = 10.0  # times the noise that a step against both its neighbours usually is: larger ones are a wrap's
 
 
@@ -28,19 +29,20 @@ def find_angle_noise(recording: Recording) -> float:
     steps = np.diff(recording.edge_count)
     steps = steps[steps != 0]
     ways = np.sign(steps)
-    turns = np.count_nonzero(ways[1:] != ways[:-1]) - _count_swings(recording.voltage)
-    if len(ways) < 2 or turns < ALTERNATING * (len(ways) - 1):
+    if len(ways) < 2 or np.mean(ways[1:] != ways[:-1]) < ALTERNATING:
         return 0.0
     noise = estimate_white_noise(recording.edge_count.astype(np.float64), recording.voltage)
     alone = np.abs(steps[1:-1][(ways[1:-1] != ways[:-2]) & (ways[1:-1] != ways[2:])])
     wraps = len(alone) > 0 and float(np.median(alone)) > MOST_BACK * noise
-    return noise if noise > LEAST_NOISE and not wraps else 0.0
+    uneven = UNEVEN * _measure_uneven_travel(recording)
+    return noise if noise > max(LEAST_NOISE, uneven) and not wraps else 0.0
 
 
-def _count_swings(voltage: Floats) -> int:
-    """Count how often voltages (K,) swing from one side to the other; those of a loop that holds a place do not."""
-    sides = np.sign(voltage[np.abs(voltage) > SWING * float(np.max(np.abs(voltage), initial=0.0))])
-    return int(np.count_nonzero(sides[1:] != sides[:-1]))
+def _measure_uneven_travel(recording: Recording) -> float:
+    """Measure how much more or less [counts] is travelled in a row because rows are not even (standard deviation)."""
+    rows = np.diff(recording.time)
+    travel = np.diff(recording.edge_count).astype(np.float64)
+    return float(np.std(rows) / np.mean(rows)) * sqrt(float(np.mean(travel**2)))
 
 
 @dataclass(frozen=True)

@@ -192,7 +192,10 @@ def test_what_is_not_determined_takes_nothing_from_what_explains_everything() ->
     assert decide((finding(),), chosen(stub_model(AT, 0.0)), (), ("warm_up",)) == (Verdict.EXPLAINED, "")
 
 
-@pytest.mark.parametrize(("error", "verdict"), [(float("nan"), Verdict.UNDECIDED), (1.0, Verdict.EXPLAINED)])
+@pytest.mark.parametrize(
+    ("error", "verdict"),
+    [(float("nan"), Verdict.UNDECIDED), (0.0501, Verdict.UNDECIDED), (0.0499, Verdict.EXPLAINED)],  # of 0.1 V
+)
 def test_a_finding_of_no_determined_size_may_be_missing(error: float, verdict: Verdict) -> None:
     profile = EFFECT_BY_NAME["coulomb_friction"].shown_by if verdict is Verdict.UNDECIDED else ""
     sized = replace(finding(), parameters={"ks": (0.1, error)})
