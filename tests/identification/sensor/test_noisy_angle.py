@@ -66,7 +66,9 @@ def test_what_a_motor_travels_to_and_fro_in_uneven_rows_is_no_noise(uneven: floa
     lag = np.exp(-1.0 / 1.5)
     speed = lfilter([1.0 - lag], [1.0, -lag], 1e3 * volts)
     count = np.rint(np.cumsum(speed * rows) + noise * random.standard_normal(1000)).astype(np.int64)
-    driven = replace(counted, voltage=volts, edge_count=count, sample_time=np.round(1e9 * np.cumsum(rows)).astype(np.int64))
+    driven = replace(
+        counted, voltage=volts, edge_count=count, sample_time=np.round(1e9 * np.cumsum(rows)).astype(np.int64)
+    )
     found = find_angle_noise(driven)
     assert found == pytest.approx(noise, rel=0.5) if told else found == 0.0
 
