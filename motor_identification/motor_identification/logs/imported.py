@@ -27,14 +27,7 @@ from motor_identification.logs.rows.row_times import (
     take_periods_out,
     write_times_in_seconds,
 )
-from motor_identification.recording import Recording, recording_of
-from motor_identification.timing.pulse_slot import are_times_of_said_edges
 from motor_model.errors import RecordingError
-
-TIMES = (
-    "Speeds stay as long as a slot of {} a turn takes at them: they are the time between two edges, and no counts "
-    "within a row (found; otherwise: --speed-window)."
-)
 
 
 @dataclass(frozen=True)
@@ -81,16 +74,8 @@ def import_source(source: Source, said: Said) -> Imported:
     motors, still = _without_still(motors)
     if not any(motor.log.runs for motor in motors):
         raise RecordingError(f"{given.path} holds no recording: give a log with at least 2 samples.")
-    asked = said.edges_per_revolution and said.speed_window is None and "count" not in (said.unit or "")
-    if asked and all(are_times_of_said_edges(_as_recordings(motor.log)) for motor in motors):
-        again = import_source(source, replace(said, edges_per_revolution=None))
-        return replace(again, findings=(*again.findings, TIMES.format(said.edges_per_revolution)))
     about_file = f"{given.path}: a {source.format} with the columns {_listed(source.table.names)}."
     return Imported(tuple(motors), (about_file, *dict.fromkeys(findings), *still))
-
-
-def _as_recordings(log: Log) -> list[Recording]:
-    return [recording_of(run.samples, log.info, run.label) for run in log.runs]
 
 
 def _read_motors(given: Table, said: Said) -> tuple[list[Motor], list[str]]:

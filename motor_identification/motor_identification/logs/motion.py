@@ -39,10 +39,11 @@ from motor_identification.logs.rows.swapped_sign import turn_round
 from motor_identification.logs.rows.wraps import unwrap
 from motor_identification.logs.signals import Floats, Integers, Signals
 from motor_identification.sensor.held_samples import count_held_rows, find_frames
+from motor_identification.sensor.pulses.pulse_periods import are_times_of_slot
 from motor_identification.sensor.pulses.timer_ticks import are_over_slots
 from motor_identification.sensor.running_mean import find_running_mean, size_of_count, take_single_rows
 from motor_identification.sensor.short_window import find_step_ratio, may_be_other_edges
-from motor_identification.sensor.speed_sensor import are_blurred, are_smoothed, find_noise
+from motor_identification.sensor.speed_sensor import are_blurred, are_smoothed, find_counts, find_noise
 from motor_identification.sensor.value_lattice import find_lattice
 from motor_identification.timing.unit_zeros import measure_gain_of_mean
 from motor_model.errors import RecordingError
@@ -63,6 +64,10 @@ AS_SAID = 0.02  # relative: how far a count that is seen in rows of one period m
 FED_BACK = (
     "Speeds in {} are counts of single rows, which the command answers (a speed loop on them): they are summed up to "
     "positions, in which their rounding is not (assumed; otherwise: --speed-window)."
+)
+STAYS = (
+    "Speeds in {} stay as long as a slot of {} per revolution takes at them: they were timed between edges, not "
+    "counted (found; otherwise: --speed-window)."
 )
 TIMED = "Speeds in {} are one angle over whole ticks of a timer each: they were timed between edges, not counted."
 FLANKS = (2, 4)  # times as many as the rising ones of one channel: so are edges most often said wrong
@@ -295,6 +300,8 @@ def _confirm_edges(form: CsvForm, signals: Signals, edges: int, count: float, wi
     """
     if are_over_slots(signals.motion, count * window):
         return 0, [TIMED.format(form.motion)]
+    if _stay_as_timed(signals, form.unit_size or 1.0, count, window):
+        return 0, [STAYS.format(form.motion, edges)]
     smoothed = are_smoothed(signals.motion, signals.voltage, count)
     smoothed |= form.unit == "count/s" and _are_finer(signals.motion, count)  # whose unit is not the encoder's to say
     if not smoothed or form.unit != "count/s":
@@ -303,6 +310,14 @@ def _confirm_edges(form: CsvForm, signals: Signals, edges: int, count: float, wi
         return edges, []
     said = f"Speeds in {form.motion} lie between whole counts of {edges} per revolution: they were smoothed, or timed."
     return 0, [said]
+
+
+def _stay_as_timed(signals: Signals, unit: float, count: float, window: float) -> bool:
+    """Whether speeds in a unit [rad/s], that are no counts of a size in it, stay in all runs as long as those take."""
+    if find_counts(signals.motion, window) > 0.0:
+        return False
+    time, speed = np.asarray(1e-9 * signals.time), np.asarray(unit * signals.motion)
+    return all(are_times_of_slot(unit * count * window, time[run], speed[run]) for run in signals.runs.values())
 
 
 def _are_finer(values: Floats, count: float) -> bool:

@@ -175,11 +175,11 @@ def _describe_untestable(diagnosis: Diagnosis) -> str:
     return f"{text} {_describe_imitated(diagnosis.imitated)}" if diagnosis.imitated else text
 
 
-def _describe_imitated(imitated: Imitated) -> str:
-    """Say what kv would be beside an effect that it imitates."""
+def _describe_imitated(imitated: Imitated, without: str = "those") -> str:
+    """Say what kv would be beside an effect that it imitates, one of those that it is told without."""
     name, spec = join_effects([imitated.effect]), EFFECT_BY_NAME[imitated.effect].parameters[0]
     size = f"{spec.name} = {imitated.size:.2g} {format_unit(spec.name)}".rstrip()
-    return f"kv and its ± hold without those: beside {name} ({size}), say, kv would be {imitated.kv:.3g} V·s/rad."
+    return f"kv and its ± hold without {without}: beside {name} ({size}), say, kv would be {imitated.kv:.3g} V·s/rad."
 
 
 def _unexplained(diagnosis: Diagnosis) -> str:
@@ -275,6 +275,8 @@ def _undecided(diagnosis: Diagnosis) -> str:
         parts.append("" if diagnosis.findings else _describe_nearest(diagnosis))
     if diagnosis.undetectable and not any(one.ambiguous_with for one in diagnosis.findings):
         parts.append(_describe_untestable(diagnosis))
+    elif diagnosis.imitated:
+        parts.append(_describe_imitated(diagnosis.imitated, "what this recording could not show"))
     return " ".join(part for part in parts if part)
 
 

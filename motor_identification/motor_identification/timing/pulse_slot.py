@@ -34,14 +34,12 @@ from motor_identification.timing.shaped_fit import ShapedFit, Shaper
 from motor_identification.timing.timing import LEAST_DELAY, Timing
 from motor_model.effects import LAGGING
 from motor_model.errors import RecordingError
-from motor_model.sample import Measurement
 
 # Slots that are tried: so many rows at the usual speed (shorter ones make no difference), then nearer to the likeliest.
 GRID = tuple(0.003 * 3.0**k for k in range(7))
 STEPS = (1.7, 1.3, 1.12, 1.06)
 LEAST_ROWS = 30  # that tell
 SAME_SLOT = 0.15  # of a slot that stays tell, mostly to some per cent
-SAID_SLOT = 0.25  # of one that was said
 # Of log likelihood: of slots of ticks that are as likely, the longest is taken. By half a slot values after a turn that
 # began before it seem new; by twice one a few are left out. Measured: 3.5 of half a slot, by which 0.5 rad/s were left
 # of a motor that leaves 0.09.
@@ -63,19 +61,6 @@ class SlotGain:
 def find_shown_slot(recordings: Sequence[Recording]) -> float:
     """Find the slot [rad] that values themselves show: by how they fall between edges, or how long they stay; 0."""
     return find_decay_slot(recordings) or find_stays_slot(recordings)
-
-
-def are_times_of_said_edges(recordings: Sequence[Recording]) -> bool:
-    """Decide whether speeds that were said to be counts are no such, but a said slot over the time between two edges.
-
-    They stay until the next edge, as long as a slot takes at their speed; no counts within a row do, nor what is
-    smoothed of them. Measured: 1.05 and 0.99 of the slot in two simulated logs; none shows in 38 of counts.
-    """
-    if any(one.info.measurement is not Measurement.SPEED or not one.info.edges_per_revolution for one in recordings):
-        return False
-    unsaid = [replace(one, info=replace(one.info, edges_per_revolution=0)) for one in recordings]
-    slot, angle = find_shown_slot(unsaid), recordings[0].info.edge_angle
-    return abs(slot - angle) < SAID_SLOT * angle
 
 
 def find_stays_slot(recordings: Sequence[Recording]) -> float:

@@ -70,6 +70,11 @@ def test_an_undecided_recording_without_findings_says_what_it_hides(variants: di
         "show dead zone or backlash. kv and its ± hold without those: beside dead zone (dead_zone_voltage = 0.35 V), "
         "say, kv would be 0.142 V·s/rad."
     )
+    alike = replace(
+        variants[Verdict.UNDECIDED], undetectable=("dead_zone",), imitated=Imitated("dead_zone", 0.351, 0.1419)
+    )
+    assert "could not show: beside dead zone" in summarize_diagnosis(alike)
+    assert "could not show dead" not in summarize_diagnosis(alike)
     bent = replace(one, imitated=Imitated("coast_drive", 0.2, 0.1419))
     assert "beside coast drive (coast_share = 0.2), say" in summarize_diagnosis(bent)
     assert join_effects(tuple(effect.name for effect in EFFECTS)).endswith(f" and {len(EFFECTS) - 6} others")

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from recorded import as_counts, as_period_speed, as_speed, without_count
+from recorded import as_period_speed, as_speed, without_count
 from scipy.signal import lfilter
 from swinging import held_late, noisy, recorded
 from tiers import keep_fast
@@ -22,7 +22,6 @@ from motor_identification.timing import pulse_slot, speed_timing
 from motor_identification.timing.pulse_slot import (
     SlotGain,
     are_coarse,
-    are_times_of_said_edges,
     find_decay_slot,
     find_likeliest_slot,
     find_stays_slot,
@@ -69,17 +68,6 @@ def without_ticks(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_whole_ticks_of_a_timer_tell_the_slot(edges: int, rate: float) -> None:
     """Where so many edges come in a row that the motion alone tells none, or one that is 13 % off."""
     assert timing_of(logged(edges, rate)).slot == pytest.approx(tau / edges, rel=1e-4)
-
-
-@pytest.mark.parametrize(("said", "believed"), [(12, False), (15, False), (17, True), (9, True), (0, True)])
-def test_times_between_said_edges_are_no_counts(said: int, believed: bool) -> None:
-    recording = replace(logged(12), info=replace(logged(12).info, edges_per_revolution=said))
-    assert are_times_of_said_edges([recording]) is not believed
-    counts = as_speed(recorded(edges=12, sample_rate=50.0))
-    assert not are_times_of_said_edges([counts]) and counts.info.edges_per_revolution == 12
-    smoothed = replace(counts, speed=lfilter([0.3], [1.0, -0.7], counts.speed))
-    assert not are_times_of_said_edges([smoothed])
-    assert not are_times_of_said_edges([as_counts(recorded(edges=12, sample_rate=50.0))])
 
 
 def test_a_slow_motor_shows_the_slot_by_its_stays() -> None:

@@ -41,8 +41,19 @@ CANDIDATES = 3  # such slots that are looked at: of counts in rows of uneven len
 GRID = 1.02  # from one slot that is tried to the next
 ALIKE = 0.98  # of the best score: slots that explain the values as well
 LONGEST = 200.0  # rows that a slot takes at nearly the fastest speed, at most
+SAID_SLOT = 0.25  # of a slot that was said, that one which values show may be off
 LONGEST_SLOT = 1.1 * tau  # [rad]: a disc has one edge a turn at least; slots are known to some per cent
 ENDS = (0.02, 0.98)  # quantiles of the speeds, between which slots are tried
+
+
+def are_times_of_slot(slot: float, time: Floats, speed: Floats) -> bool:
+    """Decide whether speeds (K,) [rad/s] that are no counts, at times (K,) [s], were computed over a slot [rad].
+
+    They stay until the next edge, as long as the slot takes at them, or fall from there; no counts within a row do, nor
+    what is smoothed of them. Measured: 1.05 and 0.99 of the slot in two simulated logs; none shows in 38 of counts.
+    """
+    found = find_slot_by_decays(time, speed) or find_slot_by_stays(time, speed)
+    return abs(found - slot) < SAID_SLOT * slot
 
 
 def find_slot_by_stays(time: Floats, speed: Floats) -> float:
