@@ -53,7 +53,7 @@ def test_the_edges_that_were_said_do_not_make_counts_of_the_times_between_them(t
     assert told.motors[0].log.info == plain.motors[0].log.info and told.motors[0].log.info.edges_per_revolution == 0
     said = "Speeds in w_rad_s stay as long as a slot of 12 per revolution takes at them: they were timed between edges"
     assert any(one.startswith(said) for one in told.motors[0].log.findings)
-    for edges in (9, 17):  # of another encoder
+    for edges in (8, 17):  # of another encoder
         other = import_log(path, Said(edges_per_revolution=edges)).motors[0].log
         assert not any("stay as long" in one for one in other.findings)
 
