@@ -15,6 +15,7 @@ from motor_identification.logs.columns.vocabulary import UNIT_BY_SPELLING, Quant
 from motor_identification.logs.csv.sparse import mark_empty, mark_rare_senders
 from motor_identification.logs.csv.table import GARBLED, Table, name_column
 
+POINTS = ".,eE"  # in a number that has its own
 _MAY_LOSE_POINTS = (Quantity.VOLTAGE, Quantity.DUTY, Quantity.SUPPLY, Quantity.SPEED, Quantity.REFERENCE)
 _WITH_UNIT = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?) ?([^\W\d_][\w/]{0,9}|%|°)$")
 _LOOKED_AT = 200  # cells that tell whether a column holds numbers at all
@@ -86,8 +87,9 @@ def _restore_points(table: Table) -> Table:
             continue
         values = table.numbers(name)
         mended, which = restore_points(values)
+        which[which] = [not set(table.text(name, int(row))) & set(POINTS) for row in np.flatnonzero(which)]
         if which.any():
-            cells[name], row = mended, int(np.argmax(which))
+            cells[name], row = np.where(which, mended, values), int(np.argmax(which))
             more = f", and {which.sum() - 1} more" if which.sum() > 1 else ""
             beside = f"between {values[row - 1]:g} and {values[row + 1]:g}"
             notes.append(

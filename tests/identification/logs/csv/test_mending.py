@@ -1,5 +1,6 @@
 """Garbled rows and the order of rows; what they do to an import: test_odd_logs.py."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -54,6 +55,18 @@ def test_units_are_taken_off_cells_that_all_have_the_same() -> None:
     assert take_off_units(made(mode=["run 1", "run 2"], w=["3 furlongs", "4 furlongs"])).names == ["mode", "w"]
     many = take_off_units(made(t=[f"{k} sec" for k in range(300)] + ["end"]))
     assert many.names == ["t [s]"] and many.text("t [s]", 299) == "299" and many.text("t [s]", 300) == ""
+
+
+@pytest.mark.parametrize(("cell", "lost"), [("1901", True), ("1901.00", False), ("1901,0", False), ("1.901e3", False)])
+def test_a_number_that_is_written_with_a_point_has_lost_none(cell: str, lost: bool) -> None:
+    """12.00 V for one row, between 1.20 and 1.21 V, is the kick that starts a motor."""
+    values = [f"{190.0 + k % 3 / 10:g}" for k in range(200)]
+    values[10] = cell
+    table = made(t=[str(k) for k in range(200)], pwm=values)
+    table = replace(table, decimal_comma=True) if "," in cell else table
+    mended = mend_table(table)
+    assert (mended.notes != table.notes) is lost
+    assert mended.numbers("pwm")[10] == (pytest.approx(190.1) if lost else 1901.0)
 
 
 def test_a_point_that_a_drive_or_a_speed_lost_is_put_back_and_told() -> None:
