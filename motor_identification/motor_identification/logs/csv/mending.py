@@ -15,7 +15,7 @@ from motor_identification.logs.columns.vocabulary import UNIT_BY_SPELLING, Quant
 from motor_identification.logs.csv.sparse import mark_empty, mark_rare_senders
 from motor_identification.logs.csv.table import GARBLED, Table, name_column
 
-POINTS = ".,eE"  # in a number that has its own
+WHOLE = ".0"  # which a program writes behind a whole number that it read
 _MAY_LOSE_POINTS = (Quantity.VOLTAGE, Quantity.DUTY, Quantity.SUPPLY, Quantity.SPEED, Quantity.REFERENCE)
 _WITH_UNIT = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?) ?([^\W\d_][\w/]{0,9}|%|°)$")
 _LOOKED_AT = 200  # cells that tell whether a column holds numbers at all
@@ -80,6 +80,11 @@ def _turn_round(table: Table) -> Table:
     return table
 
 
+def _may_have_lost_point(text: str) -> bool:
+    """Whether a number has no point, or only that which a program gave it after another one had been lost."""
+    return text.removesuffix(WHOLE).lstrip("+-").isdigit()
+
+
 def _restore_points(table: Table) -> Table:
     cells, notes = dict(table.cells), list(table.notes)
     for name in table.names:
@@ -87,7 +92,7 @@ def _restore_points(table: Table) -> Table:
             continue
         values = table.numbers(name)
         mended, which = restore_points(values)
-        which[which] = [not set(table.text(name, int(row))) & set(POINTS) for row in np.flatnonzero(which)]
+        which[which] = [_may_have_lost_point(table.text(name, int(row))) for row in np.flatnonzero(which)]
         if which.any():
             cells[name], row = np.where(which, mended, values), int(np.argmax(which))
             more = f", and {which.sum() - 1} more" if which.sum() > 1 else ""

@@ -57,7 +57,9 @@ def test_units_are_taken_off_cells_that_all_have_the_same() -> None:
     assert many.names == ["t [s]"] and many.text("t [s]", 299) == "299" and many.text("t [s]", 300) == ""
 
 
-@pytest.mark.parametrize(("cell", "lost"), [("1901", True), ("1901.00", False), ("1901,0", False), ("1.901e3", False)])
+@pytest.mark.parametrize(
+    ("cell", "lost"), [("1901", True), ("1901.0", True), ("1901.00", False), ("1901,0", False), ("1.901e3", False)]
+)
 def test_a_number_that_is_written_with_a_point_has_lost_none(cell: str, lost: bool) -> None:
     """12.00 V for one row, between 1.20 and 1.21 V, is the kick that starts a motor."""
     values = [f"{190.0 + k % 3 / 10:g}" for k in range(200)]
