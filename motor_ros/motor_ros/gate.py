@@ -2,13 +2,12 @@
 
     off      latched: by motor/enable with data: false, or by a stop; only motor/enable with data: true ends it
     waiting  on, but the sender began before the plant came up: 0 V until it sends 0 V, or motor/enable
-    driven   the newest voltage of one sender; another's are left aside until that one has been silent for long enough
+    driven   the newest voltage of one sender; another's are left aside until that one has been silent for HOLD
 
-Long enough is HOLD, or as long as its latest voltage acts, or, of one that comes seldom, twice as long as it takes; for
-a 0 V it is HOLD. Whoever then takes its place is heard to begin, by its numbers, or has to begin at 0 V: it is most
-often one that was forgotten, and the motor has just been stopped. So has who was left aside beside another that drove,
-and who went on sending while nothing of it was heard for a second and more, because its link was away or the plant
-stood still: the motor has stood meanwhile, and nobody expects it to go on by itself.
+Whoever then takes its place is heard to begin, by its numbers, or has to begin at 0 V: it is most often one that was
+forgotten, and the motor has just been stopped. So has who was left aside beside another that drove, and who went on
+sending while nothing of it was heard for a second and more, because its link was away or the plant stood still: the
+motor has stood meanwhile, and nobody expects it to go on by itself.
 
 That there are two is known once the first is heard again after the other: one sender that was held up sends what it has
 missed all at once, more than is kept, and its numbers jump ahead as another's would. Its next numbers go on from there.
@@ -74,10 +73,6 @@ TWO_SENDERS = (
 MIXED = (
     "More than one node sends motor/voltage{}, all with frame_id '{}', and whose command is whose cannot be told: the"
     " motor gets 0 V; end all but one, and {:.3g} s later let that one send 0 V, or call motor/enable with data: true."
-)
-LEFT = (
-    "A voltage on motor/voltage (frame_id '{}') is left aside until who sent before (frame_id '{}') has been silent for"
-    " {:.3g} s, for that one comes seldom, or its latest voltage still acts: send 0 V first, which is obeyed sooner."
 )
 NONE_OBEYED = (
     "More than one node sends motor/voltage{}: the motor gets 0 V until one of them sends 0 V, or motor/enable is"
@@ -151,7 +146,7 @@ class Gate:
             told, bar = replace(self, sender=message), ""
         elif self._is_ours(message):
             told, bar = self._go_on(holder, message), self._bar_own(holder, message)
-        elif self.waits_for_sender(now, message.moves):
+        elif self.waits_for_sender(now):
             return self._leave_aside(message)
         else:
             told, bar = self._hand_over(holder, message)
@@ -172,19 +167,9 @@ class Gate:
         begins = not self.barred and _began(first, message.number, message.at, self.since, self.sample_period * 1e9)
         return replace(told, begun=self.begun or begins)
 
-    def waits_for_sender(self, now: int, moves: bool = True) -> bool:
-        """Whether another's command at `now` [ns] is left aside; one that moves nothing, while it might be the last."""
-        holder = self.sender
-        return holder is not None and now - holder.at <= (self._patience if moves else HOLD)
-
-    @property
-    def _patience(self) -> int:
-        """How long [ns] another's voltage waits for the sender to be heard again.
-
-        Its latest one may act meanwhile, and who comes seldom, by its successive numbers, has not ended.
-        """
-        pace = min(self.sender.period, SELDOM) if self.sender is not None else 0
-        return max(HOLD, round(self.timeout * 1e9), 2 * pace)
+    def waits_for_sender(self, now: int) -> bool:
+        """Whether another's command at `now` [ns] is left aside: the sender may be heard again."""
+        return self.sender is not None and now - self.sender.at <= HOLD
 
     def _is_ours(self, message: Sender) -> bool:
         """Whether a message is the next one of the sender, and no likelier the next of another one that is known."""
@@ -196,7 +181,7 @@ class Gate:
 
     def _bar_own(self, holder: Sender, message: Sender) -> str:
         """Why the sender that is obeyed has to begin again with a message; empty if it need not."""
-        if message.at - holder.at > self._patience and self._rivals_name(message.name) and self.conflict(message.at):
+        if message.at - holder.at > HOLD and self._rivals_name(message.name) and self.conflict(message.at):
             return HANDED
         return AWAY_LINK if self._goes_on_unheard(holder.number or 0, message) else ""
 
@@ -240,7 +225,7 @@ class Gate:
     def _may_be_obeyed(self, message: Sender) -> bool:
         """Whether a command may be of the sender that is obeyed, also where it came sooner than its own would."""
         holder = self.sender
-        if holder is None or not self.waits_for_sender(message.at, moves=False):
+        if holder is None or not self.waits_for_sender(message.at):
             return True
         both = message.number is not None and holder.number is not None
         return message.name == holder.name and (not both or (message.number or 0) > (holder.number or 0))
@@ -279,7 +264,8 @@ class Gate:
         heard = replace(self, sender=holder.after(message.number, now), aside=None, beside=None)
         if self.first and (message.number or 0) - (self.first.number or 0) > UNHEARD:
             heard = replace(heard, former=None)  # it has ended: of two that send by turns one is soon heard again
-        seen = [one for one in (self.aside, self.beside) if one is not None and now - one.at <= self._patience]
+        left, former = [one for one in (self.aside, self.beside) if one is not None], self.former
+        seen = [one for one in left if now - one.at <= HOLD or (former is not None and former.goes_on_in(one))]
         others = [one for one in seen if not holder.sent_between(one, message.number)]
         if not others:
             return heard
@@ -371,21 +357,10 @@ class Gate:
             if self.enabled and not self.begun:
                 return NONE_OBEYED.format(among)
             obeyed = f"frame_id '{sender.name}'" if sender and rival and sender.name != rival.name else "the first"
-            return TWO_SENDERS.format(among, obeyed, self._patience * 1e-9)
-        if left := self._tell_left(now):
-            return left
+            return TWO_SENDERS.format(among, obeyed, HOLD * 1e-9)
         if self.enabled and not self.begun and self.fresh(now):
             return self.waits.format(self.command)
         return ""
-
-    def _tell_left(self, now: int) -> str:
-        """Say that a sender waits for another one that has not been heard for a while; empty if none does."""
-        waiting = [
-            one for one in (self.aside, self.beside) if one is not None and one.moves and now - one.at <= CONFLICT
-        ]
-        if self.sender is None or not waiting or not HOLD < now - self.sender.at <= self._patience:
-            return ""
-        return LEFT.format(waiting[0].name, self.sender.name, self._patience * 1e-9)
 
     def state(self, now: int) -> str:
         """In words, for diagnostics."""

@@ -1,13 +1,14 @@
 """Several senders of one motor, however seldom each of them sends: one of them drives, or none, and it is said."""
 
 from collections.abc import Iterator
+from itertools import pairwise
 from random import Random
 
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from motor_ros.gate import CONFLICT, HOLD, SELDOM, UNHEARD, Gate
+from motor_ros.gate import APART, CONFLICT, HOLD, UNHEARD, Gate
 
 MS = 1_000_000  # [ns]
 T0 = 5_000_000_000_000  # [ns]
@@ -53,7 +54,12 @@ def played(plant: Gate, streams: list[list[Message]], names: str) -> Iterator[tu
 def test_of_several_that_go_on_at_whatever_rates_one_drives_or_none(
     streams: list[list[Message]], timeout: float, names: str
 ) -> None:
-    """From when each has been heard three times, whatever the frame_ids, numbers, paces and losses."""
+    """From when each has been heard three times, whatever the paces and losses; of one frame_id with numbers apart.
+
+    Of two that call themselves the same, send seldom and count alike, no plant can tell one that lost a message.
+    """
+    numbers = sorted(stream[0][3] for stream in streams)
+    assume(names == "abc" or all(more - one > APART for one, more in pairwise(numbers)))
     heard, drove = [0] * len(streams), set()
     for message, plant in played(gate(timeout), streams, names):
         heard[message[1]] += 1
@@ -108,18 +114,6 @@ def test_the_0_volt_of_one_lets_no_other_of_its_name_go_on_however_seldom_they_s
     streams[0] = [(at, who, 0.0, number) for at, who, _, number in streams[0]]
     drove = [plant.voltage(message[0]) for message, plant in played(gate(), streams, "aa")]
     assert set(drove[6:]) == {0.0}
-
-
-@pytest.mark.parametrize("period", [700, 1_200, 5_000])
-@pytest.mark.parametrize("names", ["ab", "aa"])
-def test_one_whose_pace_is_known_goes_on_beside_another_however_seldom_it_sends(names: str, period: int) -> None:
-    """Five commands, then the other begins, far ahead: it was taken for the next one, as the first was silent."""
-    first = [(T0 + k * period * MS, 0, 6.0, 1 + k) for k in range(25)]
-    second = [(T0 + (4 * period + k * period + period // 2) * MS + k, 1, -6.0, 9_000 + k) for k in range(20)]
-    for message, plant in played(gate(0.5 * period * 1e-3), [first, second], names):
-        assert plant.voltage(message[0]) != -6.0
-        assert message[1] == 1 or plant.voltage(message[0]) == 6.0
-        assert message[0] < T0 + 6 * period * MS or "More than one node" in plant.problem(message[0])
 
 
 @pytest.mark.parametrize("gap", [400, 450, 510, 600, 800, 950, 1_010, 2_000, 30_000])
@@ -195,26 +189,6 @@ def test_anothers_0_volt_stops_after_half_a_second_though_the_latest_voltage_sti
         assert (stopped.voltage(at) == 6.0) is (acts and timeout > 0.5)
         gone_on = stopped.take(-6.0, at + MS, "b", 701)
         assert (gone_on.voltage(at + MS) == -6.0) is not acts
-
-
-@pytest.mark.parametrize(("timeout", "period"), [(0.1, 0), (2.0, 0), (0.1, 1_500), (0.1, 15_000)])
-def test_who_waits_for_one_that_comes_seldom_is_told_for_how_long(timeout: float, period: int) -> None:
-    plant = gate(timeout)
-    for k in range(3):
-        plant = plant.take(6.0, T0 + k * (period or 5) * MS, "a", 1 + k)
-    ended = T0 + 2 * (period or 5) * MS
-    patience = max(HOLD, round(timeout * 1e9), 2 * min(period * MS, SELDOM))
-    told = [False, False]
-    for k in range(patience // (50 * MS) + 40):
-        at = ended + 50 * (k + 1) * MS
-        plant = plant.take(-6.0, at, "b", 1 + k)
-        assert (plant.voltage(at) == -6.0) is (at > ended + patience)
-        said = plant.problem(at)
-        assert said.startswith("A voltage on motor/voltage (frame_id 'b') is left aside until") is (
-            ended + HOLD < at <= ended + patience
-        )
-        told[at > ended + HOLD] |= f"has been silent for {patience * 1e-9:.3g} s" in said
-    assert told == [False, patience > HOLD]
 
 
 def test_of_two_that_take_turns_at_0_volt_none_is_said_to_send_beside_the_other() -> None:

@@ -23,7 +23,6 @@ from motor_ros.messages import time_message
 from motor_sim.node import MOST_BEHIND, STILL, find_due
 
 Start = Callable[..., "Popen[str]"]
-OBEYED = ("--ros-args", "-p", "command_timeout:=2.0")  # for so long, too, another waits for the first to end
 PATIENT = ("--ros-args", "-p", "command_timeout:=10.0")  # a user who is held up does not interrupt
 LATER = 6_000_000_000  # [ns] on a plant's clock, which begins at 1 s: the next plant is heard within 3.1 s of its start
 
@@ -142,14 +141,14 @@ def test_a_voltage_that_flowed_before_the_start_waits_for_0_volt(bench: Bench, s
 @pytest.mark.on_time
 def test_two_senders_are_named_and_the_first_is_obeyed(bench: Bench, start: Start, user: User) -> None:
     status = bench.hear(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
-    start("motor_sim", "motor_sim", *OBEYED)
+    start("motor_sim", "motor_sim", *PATIENT)
     user.voltage = 5.0
     bench.wait(lambda: len(user.samples) > 1.2 * APART, "numbers that no newcomer's can be taken for")
     user.until(lambda sample: sample.voltage == 5.0, "motion")
     other = User(bench)  # of the same name and pace
     other.voltage = -9.0
     bench.wait(lambda: len(other.samples) > 300 and "More than one node sends" in messages(status), "the conflict")
-    assert "(/bench, /bench): only the first is obeyed, until it has been silent for 2 s" in messages(status)
+    assert "(/bench, /bench): only the first is obeyed, until it has been silent for 0.5 s" in messages(status)
     assert {sample.voltage for sample in other.samples[30:]} == {5.0}
     user.sending = False
     bench.wait(lambda: "beside another node that drove the motor" in messages(status), "what the other one waits for")
@@ -161,7 +160,7 @@ def test_two_senders_are_named_and_the_first_is_obeyed(bench: Bench, start: Star
 @pytest.mark.on_time
 def test_of_two_senders_of_one_name_that_start_together_none_is_obeyed(bench: Bench, start: Start, user: User) -> None:
     status = bench.hear(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
-    start("motor_sim", "motor_sim", *OBEYED)
+    start("motor_sim", "motor_sim", *PATIENT)
     other = User(bench)
     user.voltage, other.voltage = 5.0, -9.0
     bench.wait(lambda: "whose command is whose cannot be told" in messages(status), "the conflict")
