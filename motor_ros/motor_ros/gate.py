@@ -75,8 +75,8 @@ MIXED = (
     " motor gets 0 V; end all but one, and {:.3g} s later let that one send 0 V, or call motor/enable with data: true."
 )
 NONE_OBEYED = (
-    "More than one node sends motor/voltage{}: the motor gets 0 V until one of them sends 0 V, or motor/enable is"
-    " called with data: true; end the others."
+    "More than one node sends motor/voltage{}: the motor gets 0 V; end all but one, and let that one send 0 V, or call"
+    " motor/enable with data: true."
 )
 NO_NUMBER = "{:g} on motor/voltage is not a number (frame_id '{}'{}): {}; send numbers, or end who sends it."
 GETS_NOTHING = "the motor gets 0 V until the next number"
