@@ -5,9 +5,9 @@
     driven   the newest voltage of one sender; another's are left aside until that one has been silent for HOLD
 
 Whoever then takes its place is heard to begin, by its numbers, or has to begin at 0 V: it is most often one that was
-forgotten, and the motor has just been stopped. So has who was left aside beside another that drove, and who went on
-sending while nothing of it was heard for a second and more, because its link was away or the plant stood still: the
-motor has stood meanwhile, and nobody expects it to go on by itself.
+forgotten, and the motor has just been stopped. What was left aside of it until then is heard, too. So has who was left
+aside beside another that drove, and who went on sending while nothing of it was heard for a second and more, because
+its link was away or the plant stood still: the motor has stood meanwhile, and nobody expects it to go on by itself.
 
 That there are two is known once the first is heard again after the other: one sender that was held up sends what it has
 missed all at once, more than is kept, and its numbers jump ahead as another's would. Its next numbers go on from there.
@@ -18,6 +18,11 @@ neither can reach the other's while it is waited for. Where they are closer a me
 pass for the other, and nobody knows whose voltage it is: the motor gets 0 V as long as both are heard, whatever they
 send and whoever switches on, and who is left has to begin at 0 V. A single 0 V that is left aside, such as the last
 word of a controller, mixes nothing.
+
+A program that is ended and started again has its old name, and numbers that go back. They are left aside until the old
+one has been silent for HOLD, and where they pass the old one's they are still its own: unless they come when the
+old one's would, or go back again to one that was not heard, which no program's do. Then there are two; in doubt the
+motor gets 0 V.
 
 Where the motor itself was the reason of a stop, it is let on again later and later: see `RepeatedStops`. Who goes on
 calling motor/enable with data: true through a stop, or somebody else's data: false, has not seen it.
@@ -147,7 +152,8 @@ class Gate:
         elif self._is_ours(message):
             told, bar = self._go_on(holder, message), self._bar_own(holder, message)
         elif self.waits_for_sender(now):
-            return self._leave_aside(message)
+            left, its_own = self._leave_aside(message), holder.goes_on_in(message) and not self.conflict(now)
+            return replace(left, command=0.0) if its_own else left  # or it may be
         else:
             told, bar = self._hand_over(holder, message)
         late = waited > max(AWAY, self.timeout * 1e9)
@@ -164,7 +170,7 @@ class Gate:
             return replace(told, begun=True, barred=False)
         if bar:
             return replace(told, begun=False, barred=True, waits=bar)
-        begins = not self.barred and _began(first, message.number, message.at, self.since, self.sample_period * 1e9)
+        begins = not self.barred and _began(first, message, self.since, self.sample_period * 1e9)
         return replace(told, begun=self.begun or begins)
 
     def waits_for_sender(self, now: int) -> bool:
@@ -176,8 +182,32 @@ class Gate:
         holder = self.sender
         if holder is None or not holder.goes_on_in(message):
             return False
-        rival = self.rival if self.conflict(message.at) else None
-        return not any(holder.is_before(other, message) for other in (self.former, rival))
+        former = self.former
+        if self.conflict(message.at):
+            return not any(holder.is_before(other, message) for other in (former, self.rival))
+        if holder.is_before(former, message) and not (holder.is_due(message) or self._has_ended(former, message)):
+            return False
+        return not self._restarted(holder, message)
+
+    def _has_ended(self, former: Sender | None, message: Sender) -> bool:
+        """Whether whose place the sender took has been silent for long, by its pace; the message is one of a few on."""
+        if former is None or self.sender is None or not self.sender.is_before_by(UNHEARD, message):
+            return False
+        return 0 < former.period * UNHEARD < message.at - former.at > AWAY
+
+    def _restarted(self, holder: Sender, message: Sender) -> bool:
+        """Whether a message goes on from one that was left aside with a number which the sender had sent before.
+
+        That is another of its name: most often the same program, ended and started again, whose numbers pass in the end
+        those of before. If it is another one beside it, one of the two is soon behind the other: see `_leave_aside`.
+        """
+        other = self.aside
+        if other is None or not holder.has_sent(other.first or other) or not other.goes_on_in(message):
+            return False
+        if (other.first or other).at < holder.at + QUICKEST:  # nobody starts a program again so quickly
+            return False
+        nearer = holder.is_before(other, message) or (other.first is not None and other.is_before_by(1, message))
+        return other.is_before_by(UNHEARD, message) and (nearer or not holder.is_due(message))
 
     def _bar_own(self, holder: Sender, message: Sender) -> str:
         """Why the sender that is obeyed has to begin again with a message; empty if it need not."""
@@ -198,14 +228,16 @@ class Gate:
         """
         now, former = message.at, self.former
         newcomer = message.follow(self.aside).follow(self.beside)
-        unheard = self._goes_on_unheard(0, message)
+        first = newcomer.first or newcomer
+        since, period = now if message.number is None else max(self.since, holder.at), self.sample_period * 1e9
         told = replace(
             self,
-            begun=self.begun and holder.at <= self.switched,  # whoever comes first after motor/enable
+            # whoever comes first after motor/enable, or was heard to begin while it was left aside
+            begun=self.begun and holder.at <= self.switched or _began(first, message, since, period, heard=True),
             barred=False,
-            waits=AWAY_LINK if unheard else HANDED,
-            since=now if message.number is None else max(self.since, holder.at),
-            first=newcomer.first or newcomer,
+            waits=AWAY_LINK if self._goes_on_unheard(0, first) else HANDED,
+            since=since,
+            first=first,
             sender=newcomer,
             former=holder,
             aside=None,
@@ -240,15 +272,22 @@ class Gate:
         seen = replace(self, rival_until=again if self.conflict(message.at) else self.rival_until)
         if self.sender is None or message.name != self.sender.name:  # it does not hide who has the sender's name
             return replace(seen, beside=message.follow(self.beside))
-        return replace(seen, aside=max(filter(None, (self.aside, message.follow(self.aside))), key=self._tells))
+        before, holder, latest = self.aside, self.sender, message.follow(self.aside)
+        if before is None or not holder.has_sent(before.first or before):
+            return replace(seen, aside=max(filter(None, (before, latest)), key=self._tells))
+        if latest.first is not None:  # from numbers that the sender has sent before, maybe past them
+            passed = latest.number if holder.has_sent(latest) else before.passed or before.number
+            return replace(seen, aside=replace(latest, moves=before.moves or latest.moves, passed=passed or 0))
+        if before.has_sent(message) and not holder.has_sent(before) and (message.number or 0) > before.passed:
+            return replace(seen, aside=message)._go_on(holder, before)  # one of the sender's own was among them
+        return replace(seen, aside=max(message, before, key=lambda one: self._tells(one)[:3]))
 
     def _tells(self, message: Sender) -> tuple[bool, bool, bool, int, int]:
         """Rank what is left aside: what the sender has not sent, then what may be taken for its own, then the latest.
 
         Its own next number is ahead of all that it has sent before in a hurry, so that of those the last one tells.
         """
-        holder = self.sender
-        ahead = holder is None or holder.sent_between(message, None)
+        ahead = self.sender is None or self.sender.sent_between(message.first or message, None)
         return not ahead, self._is_close(message), message.moves, message.number or 0, message.at
 
     def _is_close(self, other: Sender) -> bool:
@@ -376,19 +415,20 @@ class Gate:
         return self.timeout * 1e9 > HOLD
 
 
-def _began(first: Sender, number: int | None, now: int, since: int, sample_period: float) -> bool:
-    """Whether a sender sent its very first command after `since` [ns]: `number` at `now`, and `first` was heard first.
+def _began(first: Sender, message: Sender, since: int, sample_period: float, heard: bool = False) -> bool:
+    """Whether a sender sent its very first command after `since` [ns]: `first` was heard first, and then a message.
 
-    At its pace it has sent the commands that were not heard, too.
+    At its pace it has sent the commands that were not heard, too: that of its first moments, or, where it was `heard`
+    all the time while it was left aside, of the whole of that.
     """
-    if first.number is None or number is None:
-        return number is None and now == first.at and now - since >= QUIET
+    if first.number is None or message.number is None:
+        return message.number is None and message.at == first.at and message.at - since >= QUIET
     if first.number == 1:
         return True
-    listened = now - first.at
-    if not PACE[0] <= listened <= PACE[1]:
+    listened, steps = message.at - first.at, max(message.number - first.number, 1)
+    if listened < PACE[0] or (listened > PACE[1] and steps > 1 and not heard):
         return False
-    pace = listened / max(number - first.number, 1)
+    pace = listened / steps
     age = (first.number - 1) * pace
-    young = YOUNG_ANSWER if pace <= ANSWERS * sample_period else YOUNG
+    young = max(YOUNG_ANSWER if pace <= ANSWERS * sample_period else YOUNG, pace)
     return age <= young and first.at - age / SLOWED >= since - SLACK

@@ -7,6 +7,7 @@ sender's numbers go up by one with each message it sends; a message whose number
 from dataclasses import dataclass, replace
 
 CLOSEST = 0.5  # of the time that as many messages took when they came quickest: they come no closer together
+DUE = 0.8, 2.0  # of that time: a message that comes then comes as the sender's would
 QUICKEST = 1_000_000  # [ns] between two commands, while that time is not known: no plant samples faster
 
 
@@ -19,9 +20,8 @@ class Sender:
     at: int  # [ns] when it came
     period: int = 0  # [ns] the shortest between two with successive numbers; 0: not known
     moves: bool = True  # what it asks for moves something
-    first: "Sender | None" = (
-        None  # its first message that was heard, where that is another and it has gone on from there
-    )
+    first: "Sender | None" = None  # its first message that was heard, if another, and it has gone on from there
+    passed: int = 0  # while it is left aside: the latest of its numbers that the one that is obeyed had sent before
 
     def sent(self, name: str, number: int | None, now: int) -> bool:
         """Whether a message that comes at `now` [ns] is this sender's next one, or a later one."""
@@ -49,6 +49,20 @@ class Sender:
         if other is None or other.name != message.name:
             return False
         return (self.number or 0) < (other.number or 0) < (message.number or 0)
+
+    def has_sent(self, message: "Sender") -> bool:
+        """Whether this sender's numbers are past a message's: under its name, that is another one's."""
+        both = message.name == self.name and message.number is not None and self.number is not None
+        return both and (message.number or 0) <= (self.number or 0)
+
+    def is_before_by(self, steps: int, message: "Sender") -> bool:
+        """Whether a message is so many numbers on at most."""
+        return 0 < (message.number or 0) - (self.number or 0) <= steps
+
+    def is_due(self, message: "Sender") -> bool:
+        """Whether a message comes when this sender's with that number would, by its pace; not if that is not known."""
+        due = self.period * ((message.number or 0) - (self.number or 0))
+        return due > 0 and DUE[0] * due <= message.at - self.at <= DUE[1] * due
 
     def follow(self, before: "Sender | None") -> "Sender":
         """This message, with what was heard first, where it goes on from the one before."""

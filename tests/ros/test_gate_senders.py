@@ -70,15 +70,15 @@ def test_of_several_that_go_on_at_whatever_rates_one_drives_or_none(
 
 @settings(deadline=None, max_examples=150)
 @given(senders(), st.sampled_from([0.1, 0.5, 1.0, 2.0, 10.0]))
-def test_no_voltage_follows_another_senders_while_that_one_acts(streams: list[list[Message]], timeout: float) -> None:
-    """From the first command on: one drives after another only once that one's latest is stale, and 0.5 s old."""
+def test_no_voltage_follows_another_senders_before_half_a_second(streams: list[list[Message]], timeout: float) -> None:
+    """From the first command on: one drives after another only once that one has been silent, whatever still acts."""
     driver, until = 0.0, 0
     for message, plant in played(gate(timeout), streams, "abc"):
         voltage = plant.voltage(message[0])
         if voltage not in (0.0, driver):
             assert message[0] > until
         if voltage and plant.received is not None:
-            driver, until = voltage, plant.received + max(HOLD, round(timeout * 1e9))
+            driver, until = voltage, plant.received + HOLD
 
 
 def in_turn(period: int, names: str, zeros: int, shift: int = 0) -> list[list[Message]]:
@@ -152,6 +152,96 @@ def test_who_is_seen_to_begin_drives_in_the_place_of_one_that_has_ended(
         assert "More than one" not in plant.problem(at)
         acts = at if acts is None and plant.voltage(at) == -6.0 else acts
     assert acts is not None and acts - ended <= max(HOLD, gap * MS) + (60 + (lost + 2) * period) * MS
+
+
+@settings(deadline=None, max_examples=200)
+@given(
+    st.floats(0.05, 10.0),
+    st.floats(0.0, 1.0),
+    st.integers(1, 30) | st.integers(1, 500),
+    st.integers(1, 3_000) | st.integers(1, 20_000),
+    st.sampled_from([None, 1, 2]),
+    st.sampled_from(["", "b"]),
+    st.booleans(),
+)
+def test_one_that_is_ended_and_another_started_drives_within_the_wait(
+    timeout: float, pace: float, sent: int, gap: int, lost: int | None, name: str, zero: bool
+) -> None:
+    """The same program again, or one with another frame_id, from 0.5 to 1000 Hz; one of its first commands is lost."""
+    period, plant, ended, acts = round(2_000.0 * 0.0005**pace * MS), gate(timeout), T0, None
+    for k in range(sent):
+        ended = T0 + k * period
+        plant = plant.take(6.0 * (k > 0 or not zero), ended, "", 1 + k)
+    wait, begin = ended + HOLD, ended + gap * MS
+    due = max(wait, begin) + 60 * MS + 3 * period
+    for k in range((due - begin) // period + 1):
+        at = begin + k * period
+        if 1 + k != lost:
+            plant = plant.take(-6.0, at, name, 1 + k)
+            assert "More than one" not in plant.problem(at) and "heard none of it" not in plant.problem(at)
+            acts = at if acts is None and plant.voltage(at) == -6.0 else acts
+    assert acts is not None and (acts > wait or (name == "" and sent == 1 == lost))  # whose number 2 goes on from 1
+
+
+@pytest.mark.parametrize("timeout", [0.7, 2.0])
+@pytest.mark.parametrize("lost", [1, 2, 5])
+@pytest.mark.parametrize("name", ["", "b"])
+def test_who_waits_is_judged_by_what_was_heard_of_it_meanwhile(name: str, lost: int, timeout: float) -> None:
+    """Its first commands were lost, and it was refused for good, as if a link had been away."""
+    plant = gate(timeout)
+    for k in range(200):
+        plant = plant.take(6.0, T0 + 20 * k * MS, "", 1 + k)
+    begin = T0 + (199 * 20 + 100) * MS
+    for k in range(lost, 200):
+        at = begin + 20 * k * MS
+        plant = plant.take(-6.0, at, name, 1 + k)
+        assert (plant.voltage(at) == -6.0) is (at > begin + HOLD - 100 * MS)
+        assert "heard none of it" not in plant.problem(at)
+
+
+@pytest.mark.parametrize("number", [30, 1_000])
+@pytest.mark.parametrize("timeout", [0.7, 2.0])
+def test_who_waits_and_began_long_before_begins_at_0_volt(number: int, timeout: float) -> None:
+    """At 20 Hz: it is older than the one whose place it would take has been silent."""
+    plant, at = gate(timeout), T0
+    for k in range(200):
+        plant = plant.take(6.0, T0 + 20 * k * MS, "", 1 + k)
+    for k in range(200):
+        at = T0 + (199 * 20 + 100 + 50 * k) * MS
+        plant = plant.take(-6.0, at, "b", number + k)
+        assert plant.voltage(at) != -6.0
+    assert plant.problem(at).startswith("-6 V was already being sent on motor/voltage beside another node")
+
+
+@pytest.mark.parametrize("timeout", [0.1, 1.0, 10.0])
+@pytest.mark.parametrize("behind", [1, 2, 5, 40])
+def test_where_the_first_of_one_name_comes_late_beside_another_behind_it_none_drives(
+    behind: int, timeout: float
+) -> None:
+    """For a command, of which nobody knows whose it is, the motor gets 0 V, and it is known with the next one."""
+    late = 40 + behind + 10
+    first = [(T0 + (20 * k + 35 * (k == late)) * MS, 0, 6.0, 1 + k) for k in range(200)]
+    second = [(T0 + (20 * (k + behind) + 9) * MS, 1, -6.0, 1 + k) for k in range(late - 2, 150)]
+    for message, plant in played(gate(timeout), [first, second], "aa"):
+        assert plant.voltage(message[0]) != -6.0
+        if message[0] >= T0 + (20 * (late + 3)) * MS:
+            assert plant.voltage(message[0]) == 0.0 and plant.mixed
+
+
+@pytest.mark.parametrize("period", [5, 50, 400])
+@pytest.mark.parametrize("timeout", [0.1, 10.0])
+def test_a_single_0_volt_of_an_old_one_with_its_name_keeps_no_sender_from_being_heard(
+    timeout: float, period: int
+) -> None:
+    """The last word of a controller, before a command that comes late."""
+    plant, at = gate(timeout), T0
+    for k in range(60):
+        plant, at = plant.take(1.0 * k, at, "a", 101 + k), at + period * MS
+    plant = plant.take(0.0, at, "a", 7)
+    for k in range(60, 80):
+        at += 2 * period * MS
+        plant = plant.take(1.0 * k, at, "a", 101 + k)
+        assert plant.voltage(at) == 1.0 * k
 
 
 @settings(deadline=None, max_examples=200)
