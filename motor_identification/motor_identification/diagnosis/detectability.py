@@ -1,8 +1,7 @@
 """Find undetectable effects: of a size that matters, but with a trace that the model's own parameters imitate."""
 
 from collections.abc import Sequence
-from dataclasses import replace
-from math import log1p
+from math import exp, log1p
 
 import numpy as np
 
@@ -65,9 +64,11 @@ def find_imitated(model: Model, hidden: Sequence[str]) -> Imitated | None:
         larger = add_noticeable_effect(estimate, effect)
         trace = larger.problem.residuals(larger.theta) - without
         imitation = np.linalg.lstsq(root[:, None] * columns, root * trace, rcond=1e-9)[0]
-        beside = replace(estimate, theta=estimate.theta - imitation).parameters.value("kv")
+        beside = estimate.parameters.value("kv") * exp(-imitation[at])  # what is not determined may go anywhere
         change = abs(beside / estimate.parameters.value("kv") - 1.0)
-        far = change > thresholds.IMITATION and abs(imitation[at]) > thresholds.SURE_IMITATION * _error_of_kv(model)
+        far = thresholds.IMITATION < change < thresholds.MOST_IMITATION and abs(
+            imitation[at]
+        ) > thresholds.SURE_IMITATION * _error_of_kv(model)
         if far and change > most and _expect_evidence(model, trace - columns @ imitation) < likelihood_threshold():
             most, size = change, larger.parameters.value(EFFECT_BY_NAME[effect].parameters[0].name)
             found = Imitated(effect, size, beside)

@@ -339,5 +339,7 @@ MOMENTS_GAP = 3.0
 # Of the largest voltage: beside a random torque of more (RMS) nothing is explained. Measured: up to 0.025 is what gears
 # and loads were given; 0.115 stood for a play of gears whose load coasts, 0.067 for a bridge that slews.
 MOST_TORQUE = 0.05
-# Of kv, and its standard errors: by how much it has to be another beside an effect that was not to be seen.
+# Of kv: as much as it may be another beside an effect that was not to be seen, by what is right for small changes.
+MOST_IMITATION = 0.5
+# Of kv, and its standard errors: by how much it has to be another.
 IMITATION, SURE_IMITATION = 0.02, 3.0

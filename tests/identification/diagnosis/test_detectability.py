@@ -1,11 +1,13 @@
 """What a recording could not have shown: traces that the model's own parameters imitate."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 from diagnosed import fitted
 from plant import profiles, record
 
-from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis import detectability, thresholds
 from motor_identification.diagnosis.candidate_fit import validate_model
 from motor_identification.diagnosis.detectability import (
     find_imitated,
@@ -13,6 +15,7 @@ from motor_identification.diagnosis.detectability import (
     list_unturned_discs,
     remove_imitation,
 )
+from motor_identification.diagnosis.fits.effect_fit import add_noticeable_effect
 from motor_identification.diagnosis.selection.selection import begin_selection
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
@@ -73,6 +76,7 @@ def test_a_step_tells_what_kv_would_be_beside_a_friction_that_it_does_not_show(
         monkeypatch.setattr(thresholds, "IMITATION", limit * change)
     assert (find_imitated(model, ("coulomb_friction",)) is not None) is told
     assert find_imitated(model, ()) is None and find_imitated(model, ("torque_ripple",)) is None
+    monkeypatch.setattr(thresholds, "MOST_IMITATION", change * (1.01 if told else 0.99))
     worst = find_imitated(model, ("direction_asymmetry", "coulomb_friction", "transport_delay"))
     assert (worst is not None) is told  # what it shows, or what changes nothing, is none
 
@@ -108,3 +112,23 @@ def test_a_disc_that_hardly_comes_round_may_be_eccentric_where_the_motion_speaks
     problem = hold_out.restrict(make_problem([recording], ()))
     fit = fit_speeds(Estimate(problem, np.log([kv, 0.02 * kv])))
     assert list_unturned_discs(begin_selection(fit, hold_out, 1)) == told
+
+
+def test_what_is_not_determined_beside_kv_may_go_anywhere(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The speed over which a breakaway of a real motor fades went to 1e-58 rad/s, which is not physical."""
+    recording = check(record({"kv": PAPER_KV, "ka": PAPER_KA}, *profiles.step(10.0, 1.0), seed=1)[0])
+    hold_out = make_hold_out([recording], [])
+    estimate = fit_speeds(Estimate(hold_out.restrict(make_problem([recording], ())), np.log([PAPER_KV, PAPER_KA])))
+    rubbing = add_noticeable_effect(estimate, "static_friction")
+    model = validate_model(hold_out, rubbing)
+    lstsq = np.linalg.lstsq
+
+    def far(columns: np.ndarray, *rest: Any, **options: Any) -> Any:
+        found = lstsq(columns, *rest, **options)
+        found[0][1:] = 130.0  # of all but kv, logarithms of most
+        return found
+
+    monkeypatch.setattr(np.linalg, "lstsq", far)
+    monkeypatch.setattr(detectability, "_expect_evidence", lambda model, left: 0.0)
+    found = find_imitated(model, ("dead_zone", "quadratic_drag"))
+    assert found is not None and 0.5 * PAPER_KV < found.kv < PAPER_KV
