@@ -1,6 +1,7 @@
 """Find undetectable effects: of a size that matters, but with a trace that the model's own parameters imitate."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from math import exp, log1p
 
 import numpy as np
@@ -30,20 +31,13 @@ def find_undetectable(model: Model) -> tuple[str, ...]:
     Each is added at a size that matters; what of its trace the model's own parameters cannot imitate, by least squares
     on the training data, is what there would have been to find.
     """
-    problem, theta = model.estimate.problem, model.estimate.theta
-    columns, without = problem.jacobian(theta), problem.residuals(theta)
-    hidden, judged = [], list_candidates(model.effects, model.held, model.beside_torque)
-    for effect in list_candidates(model.effects):
-        if EFFECT_BY_NAME[effect].periodic:
-            if effect not in judged or model.turns < LEAST_TURNS:  # of one response, any line explains some
-                hidden.append(effect)
-            continue
-        larger = add_noticeable_effect(model.estimate, effect)
-        trace = larger.problem.residuals(larger.theta) - without
-        left = remove_imitation(columns, trace, problem.weight)
-        if effect not in judged or _expect_evidence(model, left) < likelihood_threshold():
-            hidden.append(effect)
-    return tuple(hidden)
+    judged = list_candidates(model.effects, model.held, model.beside_torque)
+    shown = {name for name in judged if EFFECT_BY_NAME[name].periodic and model.turns >= LEAST_TURNS}
+    for trace in _trace_effects(model, judged):
+        if not _expect_evidence(model, trace.left) < likelihood_threshold():
+            shown.add(trace.effect)
+    # What is not judged shows nothing: of one response, any line explains some.
+    return tuple(effect for effect in list_candidates(model.effects) if effect not in shown)
 
 
 def find_imitated(model: Model, hidden: Sequence[str]) -> Imitated | None:
@@ -52,32 +46,42 @@ def find_imitated(model: Model, hidden: Sequence[str]) -> Imitated | None:
     A standard error is that of a motor that has only what the model has. Measured: of coast-downs a dead zone of 1.7 V
     made kv 42 % larger, by ± 2 %, and left as much with it as without it.
     """
-    estimate, problem = model.estimate, model.estimate.problem
     if "kv" in model.uncertainty.not_identifiable:
         return None
-    columns, without = problem.jacobian(estimate.theta), problem.residuals(estimate.theta)
-    at, root = problem.unknowns.names.index("kv"), np.sqrt(problem.weight)
-    found, most = None, 0.0
-    for effect in hidden:
-        if EFFECT_BY_NAME[effect].periodic:
-            continue
-        larger = add_noticeable_effect(estimate, effect)
-        trace = larger.problem.residuals(larger.theta) - without
-        imitation = np.linalg.lstsq(root[:, None] * columns, root * trace, rcond=1e-9)[0]
-        beside = estimate.parameters.value("kv") * exp(-imitation[at])  # what is not determined may go anywhere
-        change = abs(beside / estimate.parameters.value("kv") - 1.0)
-        far = thresholds.IMITATION < change < thresholds.MOST_IMITATION and abs(
-            imitation[at]
-        ) > thresholds.SURE_IMITATION * _error_of_kv(model)
-        if far and change > most and _expect_evidence(model, trace - columns @ imitation) < likelihood_threshold():
-            most, size = change, larger.parameters.value(EFFECT_BY_NAME[effect].parameters[0].name)
-            found = Imitated(effect, size, beside)
+    kv, at = model.estimate.parameters.value("kv"), model.estimate.problem.unknowns.names.index("kv")
+    error = float(model.uncertainty.errors[model.whitened.problem.unknowns.names.index("kv")])  # a share of it
+    found, most = None, thresholds.IMITATION
+    for trace in _trace_effects(model, hidden):
+        beside = kv * exp(np.clip(-trace.imitation[at], -1.0, 1.0))  # what is not determined may go anywhere
+        change = abs(beside / kv - 1.0)
+        far = most < change < thresholds.MOST_IMITATION and abs(trace.imitation[at]) > thresholds.SURE_IMITATION * error
+        if far and _expect_evidence(model, trace.left) < likelihood_threshold():
+            found, most = Imitated(trace.effect, trace.size, beside), change
     return found
 
 
-def _error_of_kv(model: Model) -> float:
-    """The standard error of kv, as a share of it."""
-    return float(model.uncertainty.errors[model.whitened.problem.unknowns.names.index("kv")])
+@dataclass(frozen=True)
+class _Trace:
+    """What an effect of a size that matters would leave in the training data of a model that lacks it."""
+
+    effect: str
+    size: float  # of its first parameter
+    imitation: Floats  # (D,) of it, what the model's own unknowns do
+    left: Floats  # [rad/s] (I,) what they cannot
+
+
+def _trace_effects(model: Model, effects: Sequence[str]) -> Iterator[_Trace]:
+    """Add each of the effects to a model, at a size that matters; not what has a phase, which may be any."""
+    problem, theta = model.estimate.problem, model.estimate.theta
+    columns, without = problem.jacobian(theta), problem.residuals(theta)
+    for effect in effects:
+        if EFFECT_BY_NAME[effect].periodic:
+            continue
+        larger = add_noticeable_effect(model.estimate, effect)
+        trace = larger.problem.residuals(larger.theta) - without
+        imitation = find_imitation(columns, trace, problem.weight)
+        size = larger.parameters.value(EFFECT_BY_NAME[effect].parameters[0].name)
+        yield _Trace(effect, size, imitation, trace - columns @ imitation)
 
 
 def list_unturned_discs(selection: Selection) -> tuple[str, ...]:
@@ -96,11 +100,10 @@ def list_unturned_discs(selection: Selection) -> tuple[str, ...]:
     return tuple(one.effect for one in told if one.is_likely(thresholds.INSTANT_LIKELIHOOD))
 
 
-def remove_imitation(columns: Floats, trace: Floats, weight: Floats) -> Floats:
-    """Remove from a trace (I,) what the columns (I, D) of a Jacobian imitate of it, by weighted least squares."""
+def find_imitation(columns: Floats, trace: Floats, weight: Floats) -> Floats:
+    """Find by weighted least squares how much of each column (I, D) of a Jacobian imitates a trace (I,), shape (D,)."""
     root = np.sqrt(weight)
-    imitation = np.linalg.lstsq(root[:, None] * columns, root * trace, rcond=1e-9)[0]
-    return np.asarray(trace - columns @ imitation)
+    return np.asarray(np.linalg.lstsq(root[:, None] * columns, root * trace, rcond=1e-9)[0])
 
 
 def _expect_evidence(model: Model, left: Floats) -> float:

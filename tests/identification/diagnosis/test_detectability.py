@@ -11,11 +11,10 @@ from motor_identification.diagnosis import detectability, thresholds
 from motor_identification.diagnosis.candidate_fit import validate_model
 from motor_identification.diagnosis.detectability import (
     find_imitated,
+    find_imitation,
     find_undetectable,
     list_unturned_discs,
-    remove_imitation,
 )
-from motor_identification.diagnosis.fits.effect_fit import add_noticeable_effect
 from motor_identification.diagnosis.selection.selection import begin_selection
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
@@ -30,8 +29,9 @@ def test_what_columns_imitate_is_removed_and_no_more() -> None:
     columns, weight = random.standard_normal((50, 3)), random.uniform(0.1, 2.0, 50)
     own = random.standard_normal(50)
     own -= columns @ np.linalg.solve(columns.T @ (weight[:, None] * columns), columns.T @ (weight * own))
-    assert remove_imitation(columns, columns @ [1.0, -2.0, 0.5], weight) == pytest.approx(np.zeros(50), abs=1e-9)
-    assert remove_imitation(columns, own + columns @ [1.0, -2.0, 0.5], weight) == pytest.approx(own, abs=1e-9)
+    imitated = columns @ [1.0, -2.0, 0.5]
+    for trace, left in ((imitated, np.zeros(50)), (own + imitated, own)):
+        assert trace - columns @ find_imitation(columns, trace, weight) == pytest.approx(left, abs=1e-9)
 
 
 def test_a_rich_recording_shows_nearly_everything() -> None:
@@ -119,16 +119,18 @@ def test_what_is_not_determined_beside_kv_may_go_anywhere(monkeypatch: pytest.Mo
     recording = check(record({"kv": PAPER_KV, "ka": PAPER_KA}, *profiles.step(10.0, 1.0), seed=1)[0])
     hold_out = make_hold_out([recording], [])
     estimate = fit_speeds(Estimate(hold_out.restrict(make_problem([recording], ())), np.log([PAPER_KV, PAPER_KA])))
-    rubbing = add_noticeable_effect(estimate, "static_friction")
-    model = validate_model(hold_out, rubbing)
+    model = validate_model(hold_out, estimate)
     lstsq = np.linalg.lstsq
+    assert "kv" not in model.uncertainty.not_identifiable
 
     def far(columns: np.ndarray, *rest: Any, **options: Any) -> Any:
         found = lstsq(columns, *rest, **options)
         found[0][1:] = 130.0  # of all but kv, logarithms of most
         return found
 
-    monkeypatch.setattr(np.linalg, "lstsq", far)
     monkeypatch.setattr(detectability, "_expect_evidence", lambda model, left: 0.0)
+    monkeypatch.setattr(np.linalg, "lstsq", lambda columns, *_, **__: (np.full(columns.shape[1], -1e3),))
+    assert find_imitated(model, ("dead_zone", "quadratic_drag")) is None
+    monkeypatch.setattr(np.linalg, "lstsq", far)
     found = find_imitated(model, ("dead_zone", "quadratic_drag"))
     assert found is not None and 0.5 * PAPER_KV < found.kv < PAPER_KV

@@ -43,7 +43,7 @@ def read_pulses(table: Table, said: Said) -> Table:
             (`neutral`) may be said of any duties.
 
     Raises:
-        LogError: nobody can tell which column the said neutral is of, or how far from there full voltage is.
+        RecordingError: nobody can tell which column the said neutral is of, or how far from there full voltage is.
     """
     if said.neutral is not None:
         return _read_from(said.neutral, table, said)
